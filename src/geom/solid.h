@@ -1,0 +1,38 @@
+// solid.h - one closed 3D shape in its own coordinates: what a leaf of the model places in space.
+#pragma once
+#include "base/vec.h"
+
+#include <stdint.h>
+
+// Indexed triangles, counter-clockwise seen from outside; vertices equal in coordinates are one vertex.
+// Several triangles may form one flat face: face[i] numbers the face of triangle i from 0, so that
+// a face has one normal. {0} is a valid empty mesh.
+struct mesh {
+    struct vec3 *vertices;
+    uint32_t vertex_count;
+    uint32_t (*triangles)[3];
+    uint32_t *faces;
+    uint32_t triangle_count;
+    uint32_t face_count;
+};
+
+// A convex solid is also the intersection of the half-spaces nx x + ny y + nz z <= d of its faces
+// (unit outward normals, plane i is face i). The four arrays are one allocation, aligned to 64 bytes and
+// padded to a multiple of 8 planes with copies of plane 0.
+struct planes {
+    double *nx, *ny, *nz, *d;
+    uint32_t count, padded;
+};
+
+struct solid {
+    struct mesh mesh;
+    struct planes planes; // count 0 unless convex
+    struct box bounds;    // of the vertices
+    bool convex;
+    uint64_t hash; // of the content: equal solids have equal hashes
+};
+
+void mesh_free(struct mesh *m);   // leaves {0}
+void solid_free(struct solid *s); // leaves {0}
+// Takes the mesh over (leaves *m empty); computes bounds and, when convex is said, the planes.
+void solid_from_mesh(struct solid *out, struct mesh *m, bool convex, uint64_t hash);

@@ -1,0 +1,30 @@
+// share.h - value classes: which leaves share one primary value.
+//
+// Leaves that are direct children of one union, or convex leaves that are direct children of one
+// intersection, need no values of their own: the number of them around a point decides (section 5.1 of
+// Zanni, Claux, Lefebvre 2018). A union class holds when its count is above zero, an intersection class
+// when its count equals the number of members; the latter only counts leaves that cannot count
+// themselves twice along a ray, so other leaves of an intersection get a class of their own.
+#pragma once
+#include "hcsg/expr.h"
+
+enum class_rule { CLASS_ANY, CLASS_ALL };
+
+struct value_class {
+    enum class_rule rule;
+    uint32_t node;    // CLASS_ANY of several leaves: their union; CLASS_ALL: their intersection;
+                      // one leaf alone: the leaf's own node
+    uint32_t members; // number of leaves
+    uint64_t value;   // see values.h
+};
+
+struct sharing { // {0} is valid
+    uint32_t *class_of_leaf; // EXPR_NONE for dropped leaves
+    struct value_class *classes;
+    uint32_t class_count;
+};
+
+// convex[leaf]: the leaf cannot count itself twice. share = false gives each leaf its own class
+// (the bench measures what sharing brings).
+void sharing_build(struct sharing *out, const struct expr *e, const bool *convex, bool share);
+void sharing_free(struct sharing *s); // leaves {0}

@@ -1,0 +1,62 @@
+// model.h - what there is to draw: solids, placed leaves and expressions over them.
+#pragma once
+#include "base/error.h"
+#include "geom/solid.h"
+#include "hcsg/discovery.h"
+#include "hcsg/roi.h"
+
+struct csg_tree;
+
+struct leaf {
+    const struct solid *solid; // owned by the model's store
+    struct affine to_world;
+    struct affine to_local; // its inverse; leaves are never singular
+    bool mirrored;          // determinant of to_world is negative
+    float colour[4];        // a component below 0 is not set: the scheme's colour stands in
+    bool subtracted;        // drawn in the scheme's cut colour when it has none of its own: stands
+                            // under an odd number of subtractions
+    struct place place;     // of the node in the file
+    struct box box;         // in the world
+};
+
+enum body_kind { BODY_MAIN, BODY_BACKGROUND, BODY_HIGHLIGHT };
+
+// Leaves and one expression over them, drawn on its own. Leaf numbers are those of the file's order: of two
+// surfaces at the same depth the higher number shows.
+struct body {
+    enum body_kind kind;
+    struct leaf *leaves;
+    uint32_t leaf_count;
+    struct expr expr;          // without the leaves that cannot matter
+    struct sharing sharing;
+    struct box *roi;           // per leaf
+    struct discovery *table;
+};
+
+struct model_stats {
+    uint32_t nodes, leaves, solids, triangles, unsupported;
+};
+
+struct model {
+    struct body *bodies; // in drawing order: main first, then backgrounds, then highlights
+    uint32_t body_count;
+    struct box bounds; // of the intersected leaves of all bodies, for --viewall as OpenSCAD does it
+    struct model_stats stats;
+    struct solid_store *store;
+};
+
+struct model_options {
+    double epsilon; // filter in mm across the faces; negative: max(1e-3, 2e-6 * extent of the model)
+    bool share, roi; // value sharing and regions of interest; true unless the bench compares
+};
+#define MODEL_DEFAULTS ((struct model_options){.epsilon = -1, .share = true, .roi = true})
+
+// Never fails: what cannot be drawn is left out with a message. `store` keeps solids from reload to reload
+// (made with solid_store_new, shared by reference); the model holds a reference of its own.
+void model_build(struct model *out, const struct csg_tree *tree, struct solid_store *store,
+                 const struct model_options *options, struct messages *messages);
+void model_free(struct model *m); // leaves {0}
+double model_epsilon(const struct model *m, double asked); // the filter that holds, in mm
+
+struct solid_store *solid_store_new(void);
+void solid_store_delete(struct solid_store *s); // gives up the caller's reference

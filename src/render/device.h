@@ -1,0 +1,64 @@
+// device.h - what a renderer of bodies answers; who consumes it does not know which device ran.
+#pragma once
+#include "model/model.h"
+#include "render/rays.h"
+
+#define SURFACE_NONE UINT32_MAX // in `leaf`: nothing there
+#define SURFACE_CAP  UINT32_MAX // in `face`: solid cut open by the near plane
+
+// First visible surface of each pixel, row by row from the top.
+struct surface_image {
+    int width, height;
+    float *depth;   // depth - rays.reference in mm
+    uint32_t *leaf; // leaf number within the body or SURFACE_NONE
+    uint32_t *face; // face of the leaf's solid or SURFACE_CAP
+};
+
+// One solid interval of a ray.
+struct span {
+    float enter, leave;                // depth - rays.reference in mm
+    uint32_t enter_leaf, enter_face;   // enter_face is SURFACE_CAP when solid at the near plane
+    uint32_t leave_leaf, leave_face;   // leave_leaf is SURFACE_NONE when solid at the far plane
+};
+
+// Intervals of a rectangle of pixels, in the order of depth for each ray: pixel i = (y - y0) * (x1 - x0) +
+// (x - x0) has spans[first[i] .. first[i + 1]). Valid during the call only.
+struct span_block {
+    int x0, y0, x1, y1;
+    const uint32_t *first;
+    const struct span *spans;
+};
+
+enum walk { WALK_AUTO, WALK_HASH, WALK_ARRAY }; // ARRAY: whole expression per interval, for the bench
+
+struct render_settings {
+    double epsilon;     // intervals thinner than this across their faces do not exist, mm
+    uint32_t threads;   // 0: one per processor
+    size_t memory;      // budget in bytes for a frame beyond model and outputs; 0: 256 MB
+    enum walk walk;
+};
+
+struct render_stats {
+    double seconds_setup, seconds_draw;
+    uint64_t fragments; // crossings made
+    uint64_t misses;    // combinations evaluated during the frame
+    uint64_t open_rays; // rays on which a mesh did not close
+    size_t peak_bytes;  // beyond model and outputs
+};
+
+// The device on the processor: any number of threads, bit-identical results.
+struct cpu_device;
+struct cpu_device *cpu_device_new(void);
+void cpu_device_delete(struct cpu_device *d);
+
+// Fills *out (arrays of width * height, owned by the caller).
+void cpu_first_surface(struct cpu_device *d, const struct body *body, const struct rays *rays,
+                       const struct render_settings *settings, struct surface_image *out,
+                       struct render_stats *stats);
+
+// Calls `sink` for blocks that cover the picture, each pixel once, from several threads at once (worker
+// numbers below parallel_workers(threads)).
+void cpu_spans(struct cpu_device *d, const struct body *body, const struct rays *rays,
+               const struct render_settings *settings,
+               void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+               void *context, struct render_stats *stats);
