@@ -1,0 +1,60 @@
+// csg.h - the tree of an exported .csg file: generic calls with arguments, no meaning yet.
+#pragma once
+#include "base/error.h"
+#include "base/mem.h"
+
+enum csg_kind {
+    CSG_UNDEF,
+    CSG_BOOL,
+    CSG_NUMBER,
+    CSG_STRING,
+    CSG_VECTOR,  // of any values
+    CSG_NUMBERS, // vector of numbers only, stored packed; [] is an empty CSG_NUMBERS
+    CSG_RANGE,   // numbers: begin, step, end
+};
+
+struct csg_value {
+    enum csg_kind kind;
+    uint32_t count; // of string bytes, of elements
+    union {
+        bool boolean;
+        double number;
+        const char *string; // terminated, may hold any bytes but 0
+        const struct csg_value *items;
+        const double *numbers;
+    };
+};
+
+struct csg_argument {
+    const char *name; // NULL: positional
+    struct csg_value value;
+};
+
+enum { CSG_BACKGROUND = 1, CSG_HIGHLIGHT = 2, CSG_ROOT = 4, CSG_DISABLE = 8 }; // % # ! *
+
+struct csg_node {
+    const char *name; // interned: equal names have equal pointers within a tree
+    const struct csg_argument *arguments;
+    struct csg_node *child, *next; // first child, next sibling
+    uint32_t argument_count;
+    uint32_t line, column;
+    uint8_t modifiers;
+    bool block; // written with { }
+};
+
+struct csg_tree { // {0} is a valid empty tree
+    char *file;              // name as in messages
+    struct csg_node *first;  // top-level nodes, linked by next
+    uint32_t node_count;
+    struct arena arena;      // owns everything above but `file`
+};
+
+// Parses `size` bytes at `text` (terminated by two zero bytes that are not counted, as file_read
+// gives it). On errors adds messages with place and source line and returns false with *out = {0}.
+bool csg_parse(struct csg_tree *out, const char *file, char *text, size_t size,
+               struct messages *messages);
+bool csg_parse_file(struct csg_tree *out, const char *path, struct messages *messages);
+void csg_free(struct csg_tree *t); // leaves {0}
+
+// Writes the tree as OpenSCAD exports it. Returns a malloc'ed text and its length.
+char *csg_print(const struct csg_tree *t, size_t *size);
