@@ -25,3 +25,13 @@ function(hcsg_library name)
     target_include_directories(hcsg_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(hcsg_${name} PRIVATE hcsg_warnings)
 endfunction()
+
+# hcsg_program(hcsg-render render_main.c libs...): a program, in the top of the build folder so that
+# ./build/hcsg-render starts it, installed with its man page docs/hcsg-render.1.
+function(hcsg_program name main)
+    add_executable(${name} ${main})
+    target_link_libraries(${name} PRIVATE ${ARGN} hcsg_warnings)
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+    install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
+    install(FILES ${PROJECT_SOURCE_DIR}/docs/${name}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endfunction()
