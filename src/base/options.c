@@ -1,0 +1,226 @@
+// options.c - a program's command line: parsed, and explained, from one table.
+#include "base/options.h"
+
+#include "base/mem.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// These two belong to every program.
+static const struct option common[] = {
+    {"help", 'h', OPTION_FLAG, NULL, "show this text", NULL, 0, 0},
+    {"version", 'v', OPTION_FLAG, NULL, "show the version", NULL, 0, 0},
+};
+
+static uint32_t total(const struct program *p)
+{
+    return p->option_count + (uint32_t)array_count(common);
+}
+
+static const struct option *at(const struct program *p, uint32_t i)
+{
+    return i < p->option_count ? &p->options[i] : &common[i - p->option_count];
+}
+
+// The option and its value as they stand in argv; value NULL: none was attached.
+struct given {
+    const struct option *option;
+    const char *word; // for messages
+    const char *value;
+};
+
+// Number of insertions, deletions and replacements between a (its first n bytes) and b.
+static uint32_t distance(const char *a, size_t n, const char *b)
+{
+    enum { LONGEST = 32 };
+    size_t m = strlen(b);
+    if (n > LONGEST || m > LONGEST)
+        return UINT32_MAX;
+    uint32_t row[LONGEST + 1];
+    for (uint32_t j = 0; j <= m; j++)
+        row[j] = j;
+    for (uint32_t i = 1; i <= n; i++) {
+        uint32_t diagonal = row[0];
+        row[0] = i;
+        for (uint32_t j = 1; j <= m; j++) {
+            uint32_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+            uint32_t shorter = row[j] < row[j - 1] ? row[j] : row[j - 1];
+            diagonal = row[j];
+            row[j] = replaced < shorter + 1 ? replaced : shorter + 1;
+        }
+    }
+    return row[m];
+}
+
+static void set_unknown(const struct program *p, const char *name, size_t length, struct error *err)
+{
+    const char *nearest = NULL;
+    uint32_t best = length < 5 ? 2 : 4; // names further away than this are no help
+    for (uint32_t i = 0; i < total(p); i++) {
+        const char *candidate = at(p, i)->name;
+        uint32_t d = candidate ? distance(name, length, candidate) : best;
+        if (d < best) {
+            best = d;
+            nearest = candidate;
+        }
+    }
+    if (nearest)
+        error_set(err, "unknown option --%.*s; did you mean --%s?", (int)length, name, nearest);
+    else
+        error_set(err, "unknown option --%.*s; --help lists them", (int)length, name);
+}
+
+// Splits one word of argv that starts with a dash.
+static bool recognise(const struct program *p, const char *word, struct given *out,
+                      struct error *err)
+{
+    *out = (struct given){.word = word};
+    if (word[1] == '-') {
+        const char *name = word + 2;
+        size_t length = strcspn(name, "=");
+        for (uint32_t i = 0; i < total(p) && !out->option; i++) {
+            const struct option *o = at(p, i);
+            if (o->name && strlen(o->name) == length && memcmp(o->name, name, length) == 0)
+                out->option = o;
+        }
+        if (name[length])
+            out->value = name + length + 1;
+        if (!out->option)
+            set_unknown(p, name, length, err);
+        return out->option;
+    }
+    for (uint32_t i = 0; i < total(p) && !out->option; i++)
+        if (at(p, i)->letter == word[1])
+            out->option = at(p, i);
+    if (word[2])
+        out->value = word + 2;
+    if (!out->option)
+        error_set(err, "unknown option -%c; --help lists them", word[1]);
+    return out->option;
+}
+
+// "--threads" or "-o", as the user wrote it.
+static int shown(const struct given *g)
+{
+    return g->word[1] == '-' ? (int)strcspn(g->word, "=") : 2;
+}
+
+static bool store_number(const struct given *g, struct error *err)
+{
+    const struct option *o = g->option;
+    char *end;
+    double v = strtod(g->value, &end);
+    bool whole = o->kind == OPTION_COUNT;
+    if (end == g->value || *end || !isfinite(v) || (whole && v != floor(v))) {
+        error_set(err, "%.*s: expected a %s, got '%s'", shown(g), g->word,
+                  whole ? "whole number" : "number", g->value);
+        return false;
+    }
+    if (v < o->least || v > o->most) {
+        error_set(err, "%.*s: expected %.15g to %.15g, got %s", shown(g), g->word, o->least,
+                  o->most, g->value);
+        return false;
+    }
+    if (whole)
+        *(uint32_t *)o->target = (uint32_t)v;
+    else
+        *(double *)o->target = v;
+    return true;
+}
+
+static bool store(const struct given *g, struct error *err)
+{
+    switch (g->option->kind) {
+    case OPTION_FLAG:
+        if (g->value) {
+            error_set(err, "%.*s takes no value", shown(g), g->word);
+            return false;
+        }
+        *(bool *)g->option->target = true;
+        return true;
+    case OPTION_TEXT:
+        *(const char **)g->option->target = g->value;
+        return true;
+    case OPTION_COUNT:
+    case OPTION_NUMBER:
+        break;
+    }
+    return store_number(g, err);
+}
+
+// The left column of the help; returns its length.
+static int print_name(const struct option *o)
+{
+    const char *name = o->name ? o->name : "", *argument = o->argument ? o->argument : "";
+    char letter[] = {'-', o->letter, o->name ? ',' : 0, 0};
+    return printf("  %-3s %s%s%s%s", o->letter ? letter : "", o->name ? "--" : "", name,
+                  o->argument && o->name ? "=" : "", argument);
+}
+
+static void print_help(const struct program *p)
+{
+    enum { COLUMN = 30 };
+    printf("Usage: %s [OPTION]... %s\n%s\n\n", p->name, p->operands, p->summary);
+    for (uint32_t i = 0; i < total(p); i++) {
+        const struct option *o = at(p, i);
+        int used = print_name(o);
+        for (const char *line = o->help; line;) {
+            int length = (int)strcspn(line, "\n");
+            if (used >= COLUMN) {
+                printf("\n");
+                used = 0;
+            }
+            printf("%*s%.*s\n", COLUMN - used, "", length, line);
+            used = 0;
+            line = line[length] ? line + length + 1 : NULL;
+        }
+    }
+}
+
+// Help and version are the output asked for: not to be able to write them is an error.
+static enum options_result explain(const struct program *p, bool help, struct error *err)
+{
+    if (help)
+        print_help(p);
+    else
+        printf("%s %s\n", p->name, p->version);
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return OPTIONS_DONE;
+    error_set(err, "standard output: cannot write");
+    return OPTIONS_WRONG;
+}
+
+enum options_result options_parse(const struct program *p, int argc, char **argv, int *operands,
+                                  struct error *err)
+{
+    int kept = 0;
+    bool ended = false;
+    for (int i = 1; i < argc; i++) {
+        char *word = argv[i];
+        if (ended || word[0] != '-' || !word[1]) {
+            argv[1 + kept++] = word;
+            continue;
+        }
+        if (strcmp(word, "--") == 0) {
+            ended = true;
+            continue;
+        }
+        struct given g;
+        if (!recognise(p, word, &g, err))
+            return OPTIONS_WRONG;
+        if (g.option == &common[0] || g.option == &common[1])
+            return explain(p, g.option == &common[0], err);
+        if (g.option->kind != OPTION_FLAG && !g.value) {
+            if (i + 1 == argc) {
+                error_set(err, "%.*s: expected %s after it", shown(&g), word, g.option->argument);
+                return OPTIONS_WRONG;
+            }
+            g.value = argv[++i];
+        }
+        if (!store(&g, err))
+            return OPTIONS_WRONG;
+    }
+    *operands = kept;
+    return OPTIONS_RUN;
+}
