@@ -1,0 +1,252 @@
+// picture.c - the picture of a model: its bodies drawn by a device, shaded and laid over each
+// other.
+//
+// OpenSCAD's order: the model, then the background objects, then the highlights; each tests depth
+// against what is there and writes its own, transparent or not. Of a transparent object that is cut
+// or intersected only the nearest surface shows, of one that stands alone also its far side.
+#include "render/picture.h"
+
+#include "base/mem.h"
+#include "base/parallel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROWS = 16 };           // given to a worker at a time
+#define FAINTEST (1.0f / 512) // what shows through less than this is not seen in 8 bits
+
+// One body being drawn, as the workers see it.
+struct drawing {
+    struct picture *picture;
+    const struct shader *shader;
+    const struct body_shading *shading;
+    uint32_t body;
+    struct light light;
+    struct surface_image *surface; // of an opaque body
+    bool record;                   // into picture->surface
+    float tolerance;               // depths within it are equal
+};
+
+static void reserve(struct picture *p, int width, int height)
+{
+    if (p->rgb && p->width == width && p->height == height)
+        return;
+    picture_free(p);
+    size_t n = (size_t)width * (size_t)height;
+    struct surface_image *images[] = {&p->surface, &p->scratch};
+    for (size_t i = 0; i < array_count(images); i++)
+        *images[i] = (struct surface_image){.width = width,
+                                            .height = height,
+                                            .depth = mem_alloc(n * sizeof(float)),
+                                            .leaf = mem_alloc(n * sizeof(uint32_t)),
+                                            .face = mem_alloc(n * sizeof(uint32_t))};
+    p->rgb = mem_alloc(3 * n);
+    p->depth = mem_alloc(n * sizeof(float));
+    p->width = width;
+    p->height = height;
+}
+
+void picture_free(struct picture *p)
+{
+    struct surface_image *images[] = {&p->surface, &p->scratch};
+    for (size_t i = 0; i < array_count(images); i++) {
+        free(images[i]->depth);
+        free(images[i]->leaf);
+        free(images[i]->face);
+    }
+    free(p->rgb);
+    free(p->depth);
+    *p = (struct picture){0};
+}
+
+static uint8_t mixed(uint8_t from, uint8_t to, double share)
+{
+    return (uint8_t)(from + (to - from) * share + 0.5);
+}
+
+static void clear(struct picture *p, const struct scheme *scheme)
+{
+    struct rgb top = scheme->background, bottom = scheme->background_bottom;
+    size_t width = (size_t)p->width;
+    for (int y = 0; y < p->height; y++) {
+        double share = (y + 0.5) / p->height;
+        uint8_t *row = p->rgb + 3 * width * (size_t)y;
+        uint8_t colour[3] = {mixed(top.r, bottom.r, share), mixed(top.g, bottom.g, share),
+                             mixed(top.b, bottom.b, share)};
+        for (size_t x = 0; x < width; x++)
+            memcpy(row + 3 * x, colour, 3);
+    }
+    for (size_t i = 0; i < width * (size_t)p->height; i++) {
+        p->depth[i] = INFINITY;
+        p->surface.leaf[i] = SURFACE_NONE;
+    }
+}
+
+static void shade_rows(void *context, uint32_t item, uint32_t worker)
+{
+    (void)worker;
+    const struct drawing *d = context;
+    struct picture *p = d->picture;
+    const struct surface_image *s = d->surface;
+    struct shade_cache cache;
+    shade_cache_clear(&cache);
+    uint32_t last = (item + 1) * ROWS, height = (uint32_t)p->height;
+    size_t from = (size_t)item * ROWS * (size_t)p->width;
+    size_t to = (size_t)(last < height ? last : height) * (size_t)p->width;
+    for (size_t i = from; i < to; i++) {
+        if (s->leaf[i] == SURFACE_NONE || s->depth[i] > p->depth[i] + d->tolerance)
+            continue;
+        struct rgba c = shade_cached(&cache, d->shader, d->body, &d->light, s->leaf[i], s->face[i]);
+        memcpy(p->rgb + 3 * i, &c, 3);
+        p->depth[i] = s->depth[i];
+    }
+}
+
+// Colours collected along a ray from the front; `through` is the share that what follows still has.
+struct blend {
+    float r, g, b, through;
+};
+
+static void blend_add(struct blend *sum, struct rgba c)
+{
+    float share = sum->through * (float)c.a / 255;
+    sum->r += share * (float)c.r;
+    sum->g += share * (float)c.g;
+    sum->b += share * (float)c.b;
+    sum->through = c.a == 255 ? 0 : sum->through - share;
+}
+
+// Which parts of the body have shown their nearest surface on this ray. Past the capacity a part
+// may show again: with that many layers in front it is all but invisible.
+struct parts_seen {
+    uint32_t numbers[16];
+    uint32_t count;
+};
+
+static bool part_is_new(struct parts_seen *seen, uint32_t part)
+{
+    for (uint32_t i = 0; i < seen->count; i++)
+        if (seen->numbers[i] == part)
+            return false;
+    if (seen->count < array_count(seen->numbers))
+        seen->numbers[seen->count++] = part;
+    return true;
+}
+
+struct ray_state {
+    const struct drawing *drawing;
+    struct shade_cache *cache;
+    struct blend sum;
+    struct parts_seen seen;
+    float limit;      // surfaces behind it are hidden
+    bool shown;       // something was
+    struct span near; // enter_* of the nearest surface shown
+};
+
+// False when nothing behind this surface can show.
+static bool meet_surface(struct ray_state *r, float depth, uint32_t leaf, uint32_t face,
+                         bool far_side)
+{
+    const struct drawing *d = r->drawing;
+    const struct material *m = &d->shading->materials[leaf];
+    if (depth > r->limit)
+        return false;
+    bool shows = m->alone || (!far_side && (part_is_new(&r->seen, m->part) || m->alpha == 255));
+    if (!shows)
+        return true;
+    if (!r->shown)
+        r->near = (struct span){.enter = depth, .enter_leaf = leaf, .enter_face = face};
+    r->shown = true;
+    blend_add(&r->sum, shade_cached(r->cache, d->shader, d->body, &d->light, leaf, face));
+    return r->sum.through > FAINTEST;
+}
+
+static uint8_t over(float front, float through, uint8_t behind)
+{
+    float v = front + through * (float)behind + 0.5f;
+    return v < 255 ? (uint8_t)v : 255;
+}
+
+static void finish_ray(const struct ray_state *r, size_t pixel)
+{
+    struct picture *p = r->drawing->picture;
+    if (!r->shown)
+        return;
+    uint8_t *rgb = p->rgb + 3 * pixel;
+    rgb[0] = over(r->sum.r, r->sum.through, rgb[0]);
+    rgb[1] = over(r->sum.g, r->sum.through, rgb[1]);
+    rgb[2] = over(r->sum.b, r->sum.through, rgb[2]);
+    p->depth[pixel] = r->near.enter;
+    if (r->drawing->record) {
+        p->surface.depth[pixel] = r->near.enter;
+        p->surface.leaf[pixel] = r->near.enter_leaf;
+        p->surface.face[pixel] = r->near.enter_face;
+    }
+}
+
+static void blend_block(void *context, uint32_t worker, const struct span_block *block)
+{
+    (void)worker;
+    const struct drawing *d = context;
+    struct shade_cache cache;
+    shade_cache_clear(&cache);
+    uint32_t i = 0;
+    for (int y = block->y0; y < block->y1; y++) {
+        for (int x = block->x0; x < block->x1; x++, i++) {
+            size_t pixel = (size_t)y * (size_t)d->picture->width + (size_t)x;
+            struct ray_state r = {.drawing = d,
+                                  .cache = &cache,
+                                  .sum.through = 1,
+                                  .limit = d->picture->depth[pixel] + d->tolerance};
+            bool more = true;
+            for (uint32_t k = block->first[i]; more && k < block->first[i + 1]; k++) {
+                const struct span *s = &block->spans[k];
+                more = meet_surface(&r, s->enter, s->enter_leaf, s->enter_face, false) &&
+                       s->leave_leaf != SURFACE_NONE &&
+                       meet_surface(&r, s->leave, s->leave_leaf, s->leave_face, true);
+            }
+            finish_ray(&r, pixel);
+        }
+    }
+}
+
+static void add_stats(struct render_stats *sum, const struct render_stats *one)
+{
+    sum->seconds_setup += one->seconds_setup;
+    sum->seconds_draw += one->seconds_draw;
+    sum->fragments += one->fragments;
+    sum->misses += one->misses;
+    sum->open_rays += one->open_rays;
+    if (one->peak_bytes > sum->peak_bytes)
+        sum->peak_bytes = one->peak_bytes;
+}
+
+void picture_draw(struct picture *p, struct cpu_device *device, const struct shader *shader,
+                  const struct rays *rays, const struct render_settings *settings,
+                  struct render_stats *stats)
+{
+    *stats = (struct render_stats){0};
+    reserve(p, rays->width, rays->height);
+    clear(p, shader->scheme);
+    for (uint32_t b = 0; b < shader->model->body_count; b++) {
+        const struct body *body = &shader->model->bodies[b];
+        bool main = body->kind == BODY_MAIN;
+        struct drawing d = {.picture = p,
+                            .shader = shader,
+                            .shading = &shader->bodies[b],
+                            .body = b,
+                            .light = light_of(rays),
+                            .surface = main ? &p->surface : &p->scratch,
+                            .record = main,
+                            .tolerance = (float)settings->epsilon};
+        struct render_stats one = {0};
+        if (d.shading->opaque) {
+            cpu_first_surface(device, body, rays, settings, d.surface, &one);
+            uint32_t items = ((uint32_t)p->height + ROWS - 1) / ROWS;
+            parallel_for(items, settings->threads, shade_rows, &d);
+        } else {
+            cpu_spans(device, body, rays, settings, blend_block, &d, &one);
+        }
+        add_stats(stats, &one);
+    }
+}

@@ -1,0 +1,19 @@
+// picture.h - the picture of a model: its bodies drawn by a device, shaded and laid over each
+// other.
+#pragma once
+#include "render/device.h"
+#include "render/shade.h"
+
+struct picture { // {0} is valid; buffers are kept from drawing to drawing
+    int width, height;
+    uint8_t *rgb;                 // rows from the top without padding
+    struct surface_image surface; // nearest surface of the main body, for picking
+    float *depth;                 // of the nearest surface of all bodies, INFINITY where nothing is
+    struct surface_image scratch;
+};
+
+// `settings->epsilon` is also the depth within which a highlight counts as lying on the model.
+void picture_draw(struct picture *p, struct cpu_device *device, const struct shader *shader,
+                  const struct rays *rays, const struct render_settings *settings,
+                  struct render_stats *stats);
+void picture_free(struct picture *p); // leaves {0}

@@ -1,0 +1,191 @@
+// shade.c - from surfaces to colours: materials, OpenSCAD's light, transparency.
+#include "render/shade.h"
+
+#include "base/mem.h"
+#include "render/device.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// OpenSCAD's colours for bodies that are shown beside the model.
+static const float background_colour[4] = {180 / 255.0f, 180 / 255.0f, 180 / 255.0f, 128 / 255.0f};
+static const float highlight_colour[4] = {1, 81 / 255.0f, 81 / 255.0f, 128 / 255.0f};
+
+#define AMBIENT 0.2
+
+// Normals of a mesh whose faces have several triangles; their length is twice the area.
+struct face_normals {
+    const struct solid *solid;
+    struct vec3 *normals;
+};
+
+static int by_solid(const void *a, const void *b)
+{
+    uintptr_t left = (uintptr_t)((const struct face_normals *)a)->solid;
+    uintptr_t right = (uintptr_t)((const struct face_normals *)b)->solid;
+    return (left > right) - (left < right);
+}
+
+static struct vec3 triangle_normal(const struct mesh *m, uint32_t triangle)
+{
+    const uint32_t *t = m->triangles[triangle];
+    struct vec3 a = m->vertices[t[0]];
+    return vec3_cross(vec3_sub(m->vertices[t[1]], a), vec3_sub(m->vertices[t[2]], a));
+}
+
+static bool faces_are_triangles(const struct mesh *m)
+{
+    if (m->face_count != m->triangle_count)
+        return false;
+    for (uint32_t i = 0; i < m->triangle_count; i++)
+        if (m->faces[i] != i)
+            return false;
+    return true;
+}
+
+static struct vec3 *sum_normals(const struct mesh *m)
+{
+    if (faces_are_triangles(m))
+        return NULL;
+    struct vec3 *normals = mem_zalloc(m->face_count * sizeof *normals);
+    for (uint32_t i = 0; i < m->triangle_count; i++)
+        normals[m->faces[i]] = vec3_add(normals[m->faces[i]], triangle_normal(m, i));
+    return normals;
+}
+
+static void collect_normals(struct shader *s)
+{
+    uint32_t count = 0, capacity = 0, kept = 0;
+    for (uint32_t b = 0; b < s->model->body_count; b++) {
+        const struct body *body = &s->model->bodies[b];
+        for (uint32_t i = 0; i < body->leaf_count; i++) {
+            const struct solid *solid = body->leaves[i].solid;
+            if (solid->convex || (count && s->face_normals[count - 1].solid == solid))
+                continue;
+            array_reserve(&s->face_normals, &capacity, count + 1);
+            s->face_normals[count++] = (struct face_normals){.solid = solid};
+        }
+    }
+    if (count)
+        qsort(s->face_normals, count, sizeof *s->face_normals, by_solid);
+    for (uint32_t i = 0; i < count; i++) {
+        if (kept && s->face_normals[kept - 1].solid == s->face_normals[i].solid)
+            continue;
+        s->face_normals[kept] = s->face_normals[i];
+        s->face_normals[kept].normals = sum_normals(&s->face_normals[kept].solid->mesh);
+        kept++;
+    }
+    s->face_normals_count = kept;
+}
+
+// Numbers the members of the outermost union, and marks those that are a single leaf.
+static void find_parts(struct body_shading *out, const struct expr *e)
+{
+    uint32_t *part = mem_alloc((e->node_count + 1) * sizeof *part);
+    for (uint32_t n = e->node_count; n-- > 0;) { // parents come after their children
+        const struct expr_node *node = &e->nodes[n];
+        bool outermost = node->parent == EXPR_NONE ||
+                         (node->parent == e->root && e->nodes[e->root].op == EXPR_UNION);
+        part[n] = outermost ? out->part_count++ : part[node->parent];
+        if (node->op == EXPR_LEAF) {
+            out->materials[node->leaf].part = part[n];
+            out->materials[node->leaf].alone = outermost;
+        }
+    }
+    free(part);
+}
+
+static struct material material_of(const struct leaf *leaf, enum body_kind kind,
+                                   const struct scheme *scheme)
+{
+    struct rgb stock = leaf->subtracted ? scheme->back : scheme->front;
+    float c[4] = {(float)stock.r / 255, (float)stock.g / 255, (float)stock.b / 255, 1};
+    if (kind == BODY_BACKGROUND)
+        memcpy(c, background_colour, sizeof c);
+    if (kind == BODY_HIGHLIGHT)
+        memcpy(c, highlight_colour, sizeof c);
+    for (int i = 0; i < 4 && kind != BODY_HIGHLIGHT; i++)
+        if (leaf->colour[i] >= 0)
+            c[i] = leaf->colour[i];
+    uint8_t alpha = c[3] < 1 ? (uint8_t)(c[3] * 255 + 0.5f) : 255;
+    return (struct material){.r = c[0], .g = c[1], .b = c[2], .alpha = alpha};
+}
+
+void shader_init(struct shader *out, const struct model *m, const struct scheme *scheme)
+{
+    *out = (struct shader){.model = m, .scheme = scheme};
+    out->bodies = mem_zalloc((m->body_count + 1) * sizeof *out->bodies);
+    for (uint32_t b = 0; b < m->body_count; b++) {
+        const struct body *body = &m->bodies[b];
+        struct body_shading *shading = &out->bodies[b];
+        shading->materials = mem_alloc((body->leaf_count + 1) * sizeof *shading->materials);
+        shading->opaque = true;
+        for (uint32_t i = 0; i < body->leaf_count; i++) {
+            shading->materials[i] = material_of(&body->leaves[i], body->kind, scheme);
+            if (shading->materials[i].alpha < 255 && body->expr.leaf_node[i] != EXPR_NONE)
+                shading->opaque = false;
+        }
+        find_parts(shading, &body->expr);
+    }
+    collect_normals(out);
+}
+
+void shader_free(struct shader *s)
+{
+    if (s->bodies)
+        for (uint32_t b = 0; b < s->model->body_count; b++)
+            free(s->bodies[b].materials);
+    free(s->bodies);
+    for (uint32_t i = 0; i < s->face_normals_count; i++)
+        free(s->face_normals[i].normals);
+    free(s->face_normals);
+    *s = (struct shader){0};
+}
+
+struct light light_of(const struct rays *rays)
+{
+    struct vec3 right = vec3_normalized(rays->step_x), down = vec3_normalized(rays->step_y);
+    struct vec3 ahead = vec3_cross(down, right);
+    if (vec3_dot(ahead, rays->forward) < 0)
+        ahead = vec3_scale(ahead, -1);
+    // From the upper left behind the viewer: (-1, 1, 1) in the viewer's right, up and backwards.
+    struct vec3 sum = vec3_add(vec3_add(right, down), ahead);
+    return (struct light){vec3_normalized(vec3_scale(sum, -1)), ahead};
+}
+
+// The normal in the leaf's own coordinates, of any length; zero when the face has no area.
+static struct vec3 local_normal(const struct shader *s, const struct solid *solid, uint32_t face)
+{
+    if (solid->convex) {
+        const struct planes *p = &solid->planes;
+        return (struct vec3){p->nx[face], p->ny[face], p->nz[face]};
+    }
+    const struct face_normals key = {.solid = solid};
+    const struct face_normals *found =
+        bsearch(&key, s->face_normals, s->face_normals_count, sizeof *s->face_normals, by_solid);
+    return found && found->normals ? found->normals[face] : triangle_normal(&solid->mesh, face);
+}
+
+static uint8_t to_byte(double v)
+{
+    return v < 1 ? (uint8_t)(255 * v + 0.5) : 255;
+}
+
+struct rgba shade_face(const struct shader *s, uint32_t body, const struct light *light,
+                       uint32_t leaf, uint32_t face)
+{
+    const struct leaf *placed = &s->model->bodies[body].leaves[leaf];
+    const struct material *m = &s->bodies[body].materials[leaf];
+    struct vec3 normal = light->view_axis;
+    if (face != SURFACE_CAP)
+        normal =
+            vec3_normalized(affine_normal(&placed->to_local, local_normal(s, placed->solid, face)));
+    double factor = AMBIENT + fabs(vec3_dot(normal, light->direction));
+    return (struct rgba){to_byte((double)m->r * factor), to_byte((double)m->g * factor),
+                         to_byte((double)m->b * factor), m->alpha};
+}
+
+void shade_cache_clear(struct shade_cache *c)
+{
+    memset(c, 0xff, sizeof *c); // a leaf of all ones is SURFACE_NONE, which nobody looks up
+}

@@ -1,0 +1,334 @@
+// render_main.c - hcsg-render: the picture of a model as a PNG file, without a window.
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/mem.h"
+#include "base/options.h"
+#include "csg/csg.h"
+#include "io/write_png.h"
+#include "model/model.h"
+#include "render/camera.h"
+#include "render/picture.h"
+#include "scad/openscad.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum { EXIT_FINE = 0, EXIT_INPUT = 1, EXIT_PICTURE = 2 };
+enum { SIDE_MOST = 32768, PIXELS_MOST = 1 << 26 };
+
+// The command line as it was given.
+static struct {
+    const char *output, *size, *camera, *projection, *scheme, *device;
+    bool viewall, autocenter, summary;
+    uint32_t threads, megabytes;
+    double epsilon;
+} given = {.size = "512,512", .scheme = "Cornfield", .epsilon = -1, .megabytes = 256};
+
+static const struct option options[] = {
+    {"output", 'o', OPTION_TEXT, "FILE", "write the picture there; - is standard output",
+     &given.output, 0, 0},
+    {"imgsize", 0, OPTION_TEXT, "W,H", "size of the picture in pixels (default 512,512)",
+     &given.size, 0, 0},
+    {"camera", 0, OPTION_TEXT, "NUMBERS",
+     "tx,ty,tz,rx,ry,rz,distance or eyex,eyey,eyez,centrex,centrey,centrez;\n"
+     "without it the whole model is shown, as by --viewall --autocenter",
+     &given.camera, 0, 0},
+    {"viewall", 0, OPTION_FLAG, NULL, "choose the distance so that the whole model shows",
+     &given.viewall, 0, 0},
+    {"autocenter", 0, OPTION_FLAG, NULL, "look at the centre of the model", &given.autocenter, 0,
+     0},
+    {"projection", 0, OPTION_TEXT, "o|p", "ortho or perspective (default)", &given.projection, 0,
+     0},
+    {"colorscheme", 0, OPTION_TEXT, "NAME", "Cornfield (default) or another of OpenSCAD's",
+     &given.scheme, 0, 0},
+    {"device", 0, OPTION_TEXT, "auto|cpu", "what draws", &given.device, 0, 0},
+    {"threads", 0, OPTION_COUNT, "N", "threads to draw with; 0: one per processor (default)",
+     &given.threads, 0, 256},
+    {"eps", 0, OPTION_NUMBER, "MM",
+     "ignore solid and gaps thinner than this; 0: none\n"
+     "(default 0.001, or 2e-6 of the model's extent if that is more)",
+     &given.epsilon, 0, 1e9},
+    {"memory", 0, OPTION_COUNT, "MB", "memory to draw with, beside model and picture (default 256)",
+     &given.megabytes, 1, 1 << 20},
+    {"summary", 0, OPTION_FLAG, NULL, "print numbers about model and picture", &given.summary, 0,
+     0},
+};
+
+static const struct program program = {
+    .name = "hcsg-render",
+    .version = HCSG_VERSION,
+    .summary = "Draws an OpenSCAD model, exported as .csg, or a .scad through openscad, as a PNG "
+               "picture.",
+    .operands = "FILE",
+    .options = options,
+    .option_count = array_count(options),
+};
+
+// What the options mean, checked.
+struct request {
+    const char *input;
+    int width, height;
+    struct camera camera;
+    bool viewall, autocenter;
+    const struct scheme *scheme;
+};
+
+static bool parse_size(const char *text, int *width, int *height, struct error *err)
+{
+    char *end;
+    long w = strtol(text, &end, 10), h = 0;
+    bool ok = end != text && *end == ',';
+    if (ok) {
+        const char *second = end + 1;
+        h = strtol(second, &end, 10);
+        ok = end != second && !*end;
+    }
+    if (!ok) {
+        error_set(err, "--imgsize: expected WIDTH,HEIGHT, got '%s'", text);
+        return false;
+    }
+    if (w < 1 || h < 1 || w > SIDE_MOST || h > SIDE_MOST || w * h > PIXELS_MOST) {
+        error_set(err, "--imgsize: expected sides of 1 to %d and at most %d pixels, got '%s'",
+                  SIDE_MOST, PIXELS_MOST, text);
+        return false;
+    }
+    *width = (int)w;
+    *height = (int)h;
+    return true;
+}
+
+static bool parse_projection(const char *text, bool *orthographic, struct error *err)
+{
+    static const struct {
+        const char *name;
+        bool orthographic;
+    } names[] = {
+        {"o", true}, {"ortho", true}, {"orthogonal", true}, {"p", false}, {"perspective", false}};
+    for (size_t i = 0; i < array_count(names); i++) {
+        if (strcmp(names[i].name, text) == 0) {
+            *orthographic = names[i].orthographic;
+            return true;
+        }
+    }
+    error_set(err, "--projection: expected o, ortho, p or perspective, got '%s'", text);
+    return false;
+}
+
+static bool check_output(const char *path, struct error *err)
+{
+    if (!path && !given.summary) {
+        error_set(err, "no output; give -o FILE.png");
+        return false;
+    }
+    const char *extension = path ? file_extension(path) : "";
+    if (*extension && strcasecmp(extension, "png") != 0) {
+        error_set(err, "%s: only PNG pictures can be written, not .%s", path, extension);
+        return false;
+    }
+    return true;
+}
+
+static bool parse_request(struct request *out, int operands, char **argv, struct error *err)
+{
+    *out = (struct request){.input = argv[1], .camera = CAMERA_DEFAULTS};
+    if (operands != 1) {
+        error_set(err,
+                  operands ? "expected one input file, got %d; --help shows the options"
+                           : "no input file; --help shows the options",
+                  operands);
+        return false;
+    }
+    if (given.device && strcmp(given.device, "auto") != 0 && strcmp(given.device, "cpu") != 0) {
+        error_set(err, "--device: expected auto or cpu, got '%s'", given.device);
+        return false;
+    }
+    out->viewall = given.viewall || !given.camera;
+    out->autocenter = given.autocenter || !given.camera;
+    out->scheme = scheme_find(given.scheme, err);
+    return out->scheme && parse_size(given.size, &out->width, &out->height, err) &&
+           (!given.camera || camera_parse(&out->camera, given.camera, err)) &&
+           (!given.projection ||
+            parse_projection(given.projection, &out->camera.orthographic, err)) &&
+           check_output(given.output, err);
+}
+
+static bool read_tree(struct csg_tree *out, const char *path, struct scad_result *scad,
+                      struct messages *messages)
+{
+    if (strcasecmp(file_extension(path), "scad") != 0)
+        return csg_parse_file(out, path, messages);
+    struct error err;
+    if (!scad_export(path, NULL, scad, &err)) {
+        messages_add(messages, MESSAGE_ERROR, (struct place){0}, "%s", err.text);
+        return false;
+    }
+    fputs(scad->log ? scad->log : "", stderr);
+    return csg_parse(out, scad->name, scad->text, scad->size, messages);
+}
+
+struct timing {
+    double read, build, draw, write; // seconds
+};
+
+static void print_box(FILE *out, struct box b)
+{
+    if (box_is_empty(b)) {
+        fprintf(out, "Bounding box:  empty\n");
+        return;
+    }
+    struct vec3 size = vec3_sub(b.max, b.min);
+    fprintf(out, "Bounding box:\n");
+    fprintf(out, "   Min:  %.6g, %.6g, %.6g\n", b.min.x, b.min.y, b.min.z);
+    fprintf(out, "   Max:  %.6g, %.6g, %.6g\n", b.max.x, b.max.y, b.max.z);
+    fprintf(out, "   Size: %.6g, %.6g, %.6g\n", size.x, size.y, size.z);
+}
+
+static void print_summary(FILE *out, const struct request *r, const struct model *m,
+                          const struct messages *messages, const struct render_stats *stats,
+                          const struct timing *t)
+{
+    char camera[CAMERA_TEXT];
+    uint32_t combinations = 0;
+    for (uint32_t i = 0; i < m->body_count; i++)
+        combinations += discovery_stats(m->bodies[i].table).combinations;
+    camera_print(&r->camera, camera);
+    fprintf(out, "Nodes:         %u\n", m->stats.nodes);
+    fprintf(out, "Leaves:        %u\n", m->stats.leaves);
+    fprintf(out, "Solids:        %u\n", m->stats.solids);
+    fprintf(out, "Triangles:     %u\n", m->stats.triangles);
+    fprintf(out, "Not drawn:     %u\n", m->stats.unsupported);
+    fprintf(out, "Combinations:  %u\n", combinations);
+    fprintf(out, "Open rays:     %llu\n", (unsigned long long)stats->open_rays);
+    fprintf(out, "Warnings:      %u\n", messages->warnings);
+    print_box(out, m->bounds);
+    fprintf(out, "Camera:        --camera=%s\n", camera);
+    fprintf(out, "Picture:       %d x %d\n", r->width, r->height);
+    fprintf(out, "Time:          read %.1f ms, build %.1f ms, draw %.1f ms, write %.1f ms\n",
+            t->read * 1e3, t->build * 1e3, t->draw * 1e3, t->write * 1e3);
+}
+
+// Seconds since *start, which moves to now.
+static double lap(double *start)
+{
+    double before = *start;
+    *start = clock_seconds();
+    return *start - before;
+}
+
+static bool draw(struct picture *out, struct request *r, const struct model *m,
+                 struct render_stats *stats, struct error *err)
+{
+    if (r->autocenter)
+        camera_autocenter(&r->camera, m->bounds);
+    if (r->viewall)
+        camera_viewall(&r->camera, m->bounds);
+    if (!(r->camera.distance > 0)) {
+        error_set(err, "--camera: the distance must be above 0");
+        return false;
+    }
+    struct rays rays = camera_rays(&r->camera, r->width, r->height, m->bounds);
+    const struct render_settings settings = {.epsilon = model_epsilon(m, given.epsilon),
+                                             .threads = given.threads,
+                                             .memory = (size_t)given.megabytes << 20};
+    struct shader shader;
+    struct cpu_device *device = cpu_device_new();
+    shader_init(&shader, m, r->scheme);
+    picture_draw(out, device, &shader, &rays, &settings, stats);
+    shader_free(&shader);
+    cpu_device_delete(device);
+    return true;
+}
+
+static int fail(const struct error *err, int code)
+{
+    fprintf(stderr, "%s: %s\n", program.name, err->text);
+    return code;
+}
+
+static int run(struct request *r)
+{
+    int code = EXIT_INPUT;
+    struct error err;
+    struct messages messages = {0};
+    struct csg_tree tree = {0};
+    struct scad_result scad = {0};
+    struct model model = {0};
+    struct picture picture = {0};
+    struct render_stats stats = {0};
+    struct timing t = {0};
+    double start = clock_seconds();
+
+    bool read = read_tree(&tree, r->input, &scad, &messages);
+    t.read = lap(&start);
+    if (!read) {
+        messages_print(&messages, stderr);
+        goto done;
+    }
+    struct solid_store *store = solid_store_new();
+    struct model_options model_options = MODEL_DEFAULTS;
+    model_options.epsilon = given.epsilon;
+    model_build(&model, &tree, store, &model_options, &messages);
+    solid_store_delete(store);
+    t.build = lap(&start);
+    messages_print(&messages, stderr);
+    if (!draw(&picture, r, &model, &stats, &err)) {
+        fail(&err, EXIT_INPUT);
+        goto done;
+    }
+    t.draw = lap(&start);
+    if (given.output &&
+        !write_png(given.output, picture.rgb, picture.width, picture.height, &err)) {
+        code = fail(&err, EXIT_PICTURE);
+        goto done;
+    }
+    t.write = lap(&start);
+    if (given.summary) {
+        bool taken = given.output && strcmp(given.output, "-") == 0;
+        print_summary(taken ? stderr : stdout, r, &model, &messages, &stats, &t);
+    }
+    code = EXIT_FINE;
+done:
+    picture_free(&picture);
+    model_free(&model);
+    csg_free(&tree);
+    scad_result_free(&scad);
+    messages_free(&messages);
+    return code;
+}
+
+// A standard stream that is closed would lend its number to the next file opened. This stands in
+// for it, opened the wrong way round so that using it fails.
+static void hold_standard_streams(void)
+{
+    for (int fd = 0; fd < 3; fd++)
+        if (fcntl(fd, F_GETFD) == -1)
+            (void)!open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+}
+
+int main(int argc, char **argv)
+{
+    hold_standard_streams();
+    signal(SIGPIPE, SIG_IGN);
+    int operands = 0;
+    struct error err;
+    struct request request;
+    switch (options_parse(&program, argc, argv, &operands, &err)) {
+    case OPTIONS_DONE:
+        return EXIT_FINE;
+    case OPTIONS_WRONG:
+        return fail(&err, EXIT_INPUT);
+    case OPTIONS_RUN:
+        break;
+    }
+    if (!parse_request(&request, operands, argv, &err))
+        return fail(&err, EXIT_INPUT);
+    int code = run(&request);
+    if (code == EXIT_FINE && given.summary && (fflush(stdout) != 0 || ferror(stdout))) {
+        error_set(&err, "standard output: cannot write");
+        return fail(&err, EXIT_PICTURE);
+    }
+    return code;
+}
