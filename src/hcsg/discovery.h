@@ -1,30 +1,41 @@
 // discovery.h - is the set of solids around an interval solid? Known keys in constant time, others
 // evaluated once and remembered.
 //
-// A combination key is the sum of the values of the classes of all leaves around an interval, modulo
-// 2^64. A value is 55 random bits: the low 32 are the paper's primary value, distinct and non-zero, the
-// high 23 its secondary value. Keys are looked up by their low 55 bits in the table of table.h.
+// A combination key is the sum of the values of the classes of all leaves around an interval,
+// modulo 2^64; its low 55 bits count (values.h, also on how rarely two sets have one key). Known
+// keys are in the table of table.h.
 #pragma once
-#include "hcsg/share.h"
+#include "hcsg/evaluate.h"
+#include "hcsg/table.h"
 
-struct member { // of a combination: count leaves of one class hold the interval
-    uint32_t class_id, count;
+struct discovery { // what lookups read; the rest follows in discovery.c
+    _Atomic(struct table *) table;
 };
 
-struct discovery;
-
 struct discovery *discovery_new(const struct expr *e, const struct sharing *s); // borrows both
-void discovery_delete(struct discovery *d);                                    // accepts NULL
+void discovery_delete(struct discovery *d);                                     // accepts NULL
 
 enum { SET_EMPTY = 0, SET_SOLID = 1, SET_UNKNOWN = 2 };
 
 // Constant-time lookup. Safe while another thread is in discovery_resolve: a key that is just being
 // moved may read as unknown, never as wrong.
-int discovery_lookup(const struct discovery *d, uint64_t key);
+static inline int discovery_lookup(const struct discovery *d, uint64_t key)
+{
+    key &= VALUE_MASK;
+    if (key == 0)
+        return SET_EMPTY;
+    const struct table *t = atomic_load_explicit(&d->table, memory_order_acquire);
+    uint64_t record = table_find(t, key);
+    return record ? (int)(record >> TABLE_SOLID_SHIFT) : SET_UNKNOWN;
+}
 
-// Evaluates the set (sorted by class, counts above zero) if the key is unknown, remembers it, and returns
-// SET_EMPTY or SET_SOLID. Thread-safe.
+// Evaluates the set (sorted by class, counts above zero), remembers it under its key unless that is
+// known, and returns SET_EMPTY or SET_SOLID: always the truth about the set. Thread-safe.
 int discovery_resolve(struct discovery *d, uint64_t key, const struct member *set, uint32_t count);
+
+// Brings the stored keys in line with the values of the classes after values_renew. Keys summed
+// before are meaningless afterwards. Not while another thread uses `d`.
+void discovery_renew(struct discovery *d);
 
 struct discovery_stats {
     uint32_t combinations, capacity; // records and places
@@ -32,5 +43,11 @@ struct discovery_stats {
     uint32_t rebuilds;
     size_t bytes; // table, mirror and sets
 };
-struct discovery_stats discovery_stats(const struct discovery *d);
-void discovery_clear(struct discovery *d); // forgets all combinations (for the bench)
+struct discovery_stats discovery_stats(struct discovery *d);
+
+// Forgets all combinations. Not while another thread uses `d`.
+void discovery_clear(struct discovery *d);
+
+// Frees the tables that growth left behind for readers; until then they take less room than the
+// table itself. Not while another thread uses `d`: between two frames, say.
+void discovery_settle(struct discovery *d);

@@ -1,11 +1,13 @@
 // expr.h - the CSG expression over leaf numbers, in normal form.
 //
-// Two kinds of inner nodes. UNION has two or more children. INTERSECTION has one or more children and
-// may subtract one node: A - B - C is INTERSECTION {A} minus UNION {B, C}. Normal form means: nested
-// unions and nested intersections are one node, the subtrahends of an intersection are one union,
-// a node without effect (a union or an intersection of one child) is that child, and the rules of the
-// empty set are applied: x + 0 = x, x - 0 = x, 0 - x = 0, x * 0 = 0. Every leaf stands once or was
-// dropped. Children come before their parents in `nodes`, so the root is the last node.
+// Two kinds of inner nodes. UNION has two or more children. INTERSECTION has one or more children
+// and may subtract one node: A - B - C is INTERSECTION {A} minus UNION {B, C}. Normal form means:
+// nested unions and nested intersections are one node, the subtrahends of an intersection are one
+// union, a node without effect (a union or an intersection of one child) is that child, and the
+// rules of the empty set are applied: x + 0 = x, x - 0 = x, 0 - x = 0, x * 0 = 0. Every leaf stands
+// once or was dropped. `nodes` is in postorder: children come before their parents, what an
+// intersection subtracts after its children, every subtree is a contiguous range, and the root is
+// the last node.
 #pragma once
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,8 +17,9 @@
 
 enum expr_op { EXPR_LEAF, EXPR_UNION, EXPR_INTERSECTION, EXPR_DIFFERENCE };
 
-// What the caller gives: postfix order. LEAF pushes leaf number `arg`; the other three pop `arg` operands
-// (0 operands push the empty set; DIFFERENCE is the first minus all others) and push the result.
+// What the caller gives: postfix order. LEAF pushes leaf number `arg`; the other three pop `arg`
+// operands (0 operands push the empty set; DIFFERENCE is the first minus all others) and push the
+// result.
 struct expr_token {
     enum expr_op op;
     uint32_t arg;
@@ -40,8 +43,8 @@ struct expr { // {0} is a valid empty expression
     uint32_t leaf_count;
 };
 
-// Never fails; any depth. `postfix` must leave exactly one operand, or be empty; each leaf number below
-// leaf_count stands at most once. The caller frees with expr_free.
+// Never fails; any depth. `postfix` must leave exactly one operand, or be empty; each leaf number
+// below leaf_count stands at most once. The caller frees with expr_free.
 void expr_build(struct expr *out, const struct expr_token *postfix, size_t count,
                 uint32_t leaf_count);
 // The same expression without the leaves for which keep[leaf] is false (as if they were empty).

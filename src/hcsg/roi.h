@@ -1,11 +1,11 @@
 // roi.h - regions of interest: the box in which a leaf can change the result.
 //
-// Section 5.2 of Zanni, Claux, Lefebvre 2018: a subtrahend matters only where its minuend is, operands
-// of an intersection only where all of them are.
+// Section 5.2 of Zanni, Claux, Lefebvre 2018: a subtrahend matters only where its minuend is,
+// operands of an intersection only where all of them are.
 #pragma once
 #include "base/vec.h"
 #include "hcsg/expr.h"
 
-// Fills roi[leaf] from the boxes of the leaves, iterated to a fixed point; an empty box means that the
-// leaf cannot matter. Conservative: never smaller than the true region.
+// Fills roi[leaf] from the boxes of the leaves, iterated to a fixed point; an empty box means that
+// the leaf cannot matter. Conservative: never smaller than the true region.
 void roi_build(struct box *roi, const struct expr *e, const struct box *leaf_box);

@@ -1,10 +1,11 @@
 // share.h - value classes: which leaves share one primary value.
 //
 // Leaves that are direct children of one union, or convex leaves that are direct children of one
-// intersection, need no values of their own: the number of them around a point decides (section 5.1 of
-// Zanni, Claux, Lefebvre 2018). A union class holds when its count is above zero, an intersection class
-// when its count equals the number of members; the latter only counts leaves that cannot count
-// themselves twice along a ray, so other leaves of an intersection get a class of their own.
+// intersection, need no values of their own: the number of them around a point decides (section 5.1
+// of Zanni, Claux, Lefebvre 2018). A union class holds when its count is above zero, an
+// intersection class when its count equals the number of members; the latter only counts leaves
+// that cannot count themselves twice along a ray, so other leaves of an intersection get a class of
+// their own.
 #pragma once
 #include "hcsg/expr.h"
 
@@ -18,7 +19,7 @@ struct value_class {
     uint64_t value;   // see values.h
 };
 
-struct sharing { // {0} is valid
+struct sharing {             // {0} is valid
     uint32_t *class_of_leaf; // EXPR_NONE for dropped leaves
     struct value_class *classes;
     uint32_t class_count;

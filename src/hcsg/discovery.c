@@ -1,0 +1,190 @@
+// discovery.c - combinations met so far, and how new ones come in.
+#include "hcsg/discovery.h"
+
+#include "base/mem.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUMBER_BYTES_MOST = 10 }; // of a packed member
+
+struct combinations {
+    struct discovery hot;             // first, so that a pointer to it is a pointer to all
+    alignas(64) pthread_mutex_t lock; // held by whoever changes anything here
+    const struct expr *expr;
+    const struct sharing *sharing;
+    struct table *retired[TABLE_BITS_MOST]; // a reader may still be in one
+    uint32_t retired_count;
+    uint32_t rebuilds;
+    struct arena sets;
+};
+
+static struct combinations *whole(struct discovery *d)
+{
+    return (struct combinations *)d;
+}
+
+static struct table *current(struct combinations *c)
+{
+    return atomic_load_explicit(&c->hot.table, memory_order_relaxed);
+}
+
+struct discovery *discovery_new(const struct expr *e, const struct sharing *s)
+{
+    struct combinations *c = mem_aligned(alignof(struct combinations), sizeof *c);
+    *c = (struct combinations){.expr = e, .sharing = s};
+    pthread_mutex_init(&c->lock, NULL);
+    atomic_init(&c->hot.table, table_new(TABLE_BITS_FIRST));
+    return &c->hot;
+}
+
+void discovery_settle(struct discovery *d)
+{
+    struct combinations *c = whole(d);
+    for (uint32_t i = 0; i < c->retired_count; i++)
+        table_delete(c->retired[i]);
+    c->retired_count = 0;
+}
+
+void discovery_delete(struct discovery *d)
+{
+    if (!d)
+        return;
+    struct combinations *c = whole(d);
+    discovery_settle(d);
+    table_delete(current(c));
+    arena_free(&c->sets);
+    pthread_mutex_destroy(&c->lock);
+    free(c);
+}
+
+void discovery_clear(struct discovery *d)
+{
+    struct combinations *c = whole(d);
+    discovery_settle(d);
+    table_delete(current(c));
+    arena_free(&c->sets);
+    c->rebuilds = 0;
+    atomic_store_explicit(&d->table, table_new(TABLE_BITS_FIRST), memory_order_release);
+}
+
+// A stored set is the number of its members, then for each the distance to the class before,
+// doubled, plus one when its count is not 1 and follows. Numbers are in base 128, low digits first,
+// the high bit of a byte saying that more come: a member mostly takes one byte.
+
+static unsigned char *write_number(unsigned char *p, uint64_t n)
+{
+    for (; n >= 128; n >>= 7)
+        *p++ = (unsigned char)(n | 128);
+    *p++ = (unsigned char)n;
+    return p;
+}
+
+static uint64_t read_number(const unsigned char **p)
+{
+    uint64_t n = 0;
+    for (unsigned shift = 0;; shift += 7) {
+        unsigned char byte = *(*p)++;
+        n |= (uint64_t)(byte & 127) << shift;
+        if (byte < 128)
+            return n;
+    }
+}
+
+static unsigned char *write_set(unsigned char *p, const struct member *set, uint32_t count)
+{
+    uint32_t before = 0;
+    p = write_number(p, count);
+    for (uint32_t i = 0; i < count; i++) {
+        bool many = set[i].count != 1;
+        p = write_number(p, (uint64_t)(set[i].class_id - before) << 1 | many);
+        if (many)
+            p = write_number(p, set[i].count);
+        before = set[i].class_id;
+    }
+    return p;
+}
+
+static const unsigned char *keep_set(struct combinations *c, const struct member *set,
+                                     uint32_t count)
+{
+    unsigned char *packed = mem_alloc(((size_t)count + 1) * NUMBER_BYTES_MOST);
+    size_t size = (size_t)(write_set(packed, set, count) - packed);
+    const void *kept = memcpy(arena_alloc(&c->sets, size), packed, size);
+    free(packed);
+    return kept;
+}
+
+static uint64_t key_of_set(const struct sharing *s, const unsigned char *set)
+{
+    uint64_t key = 0;
+    uint64_t class_id = 0;
+    for (uint64_t count = read_number(&set); count > 0; count--) {
+        uint64_t n = read_number(&set);
+        class_id += n >> 1;
+        key += s->classes[class_id].value * (n & 1 ? read_number(&set) : 1);
+    }
+    return key & VALUE_MASK;
+}
+
+static void remember(struct combinations *c, uint64_t key, bool solid, const struct member *set,
+                     uint32_t count)
+{
+    struct table *before = current(c);
+    bool stored;
+    struct table *t = table_add(before, key, solid, NULL, &stored);
+    if (stored)
+        t->sets[table_place(t, key)] = keep_set(c, set, count);
+    if (t != before) {
+        c->retired[c->retired_count++] = before;
+        c->rebuilds++;
+        atomic_store_explicit(&c->hot.table, t, memory_order_release);
+    }
+}
+
+int discovery_resolve(struct discovery *d, uint64_t key, const struct member *set, uint32_t count)
+{
+    struct combinations *c = whole(d);
+    bool solid = evaluate_set(c->expr, c->sharing, set, count);
+    key &= VALUE_MASK;
+    if (key != 0) {
+        pthread_mutex_lock(&c->lock);
+        if (!table_find(current(c), key))
+            remember(c, key, solid, set, count);
+        pthread_mutex_unlock(&c->lock);
+    }
+    return solid ? SET_SOLID : SET_EMPTY;
+}
+
+void discovery_renew(struct discovery *d)
+{
+    struct combinations *c = whole(d);
+    struct table *t = current(c);
+    discovery_settle(d);
+    for (uint32_t i = 0; i < table_capacity(t); i++)
+        if (t->sets[i])
+            table_renew(t, i, key_of_set(c->sharing, t->sets[i]));
+}
+
+struct discovery_stats discovery_stats(struct discovery *d)
+{
+    struct combinations *c = whole(d);
+    pthread_mutex_lock(&c->lock);
+    const struct table *t = current(c);
+    struct discovery_stats s = {.combinations = t->count,
+                                .capacity = table_capacity(t),
+                                .rebuilds = c->rebuilds,
+                                .bytes = sizeof *c + table_bytes(t) + c->sets.total};
+    for (uint32_t i = 0; i < c->retired_count; i++)
+        s.bytes += table_bytes(c->retired[i]);
+    uint64_t ages = 0;
+    for (uint32_t i = 0; i < s.capacity; i++) {
+        uint32_t age = table_age(atomic_load_explicit(&t->records[i], memory_order_relaxed));
+        ages += age;
+        s.max_age = age > s.max_age ? age : s.max_age;
+    }
+    s.average_age = s.combinations ? (double)ages / s.combinations : 0;
+    pthread_mutex_unlock(&c->lock);
+    return s;
+}
