@@ -1,0 +1,139 @@
+// drawing.c - draws pictures on a thread of its own: always the newest that was asked for.
+#include "app/drawing.h"
+
+#include "base/clock.h"
+#include "base/mem.h"
+#include "render/picture.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <uv.h>
+
+struct drawing {
+    uv_thread_t thread;
+    void (*done)(void *context);
+    void *context;
+
+    uv_mutex_t mutex; // guards what follows
+    uv_cond_t asked;
+    struct drawing_job next; // scene NULL: nothing asked for
+    struct shot newest;
+    bool fresh, stopping;
+};
+
+void shot_free(struct shot *s)
+{
+    scene_release(s->job.scene);
+    free(s->rgb);
+    *s = (struct shot){0};
+}
+
+static void draw(struct shot *s, const struct drawing_job *job, struct cpu_device *device,
+                 struct picture *picture)
+{
+    scene_release(s->job.scene);
+    s->job = *job;
+    s->begun = clock_seconds();
+    struct rays rays = camera_rays(&job->camera, job->width, job->height, job->scene->model.bounds);
+    picture_draw(picture, device, &job->scene->shader, &rays, &job->settings, &s->stats);
+    size_t size = 3 * (size_t)job->width * (size_t)job->height;
+    if (s->capacity < size) {
+        free(s->rgb);
+        s->rgb = mem_alloc(size);
+        s->capacity = size;
+    }
+    memcpy(s->rgb, picture->rgb, size);
+    s->done = clock_seconds();
+}
+
+static void exchange(struct shot *a, struct shot *b)
+{
+    struct shot old = *a;
+    *a = *b;
+    *b = old;
+}
+
+static void run(void *context)
+{
+    struct drawing *d = context;
+    struct cpu_device *device = cpu_device_new();
+    struct picture picture = {0};
+    struct shot work = {0};
+    for (;;) {
+        uv_mutex_lock(&d->mutex);
+        while (!d->next.scene && !d->stopping)
+            uv_cond_wait(&d->asked, &d->mutex);
+        struct drawing_job job = d->next;
+        d->next.scene = NULL;
+        bool stopping = d->stopping;
+        uv_mutex_unlock(&d->mutex);
+        if (stopping) {
+            scene_release(job.scene);
+            break;
+        }
+        draw(&work, &job, device, &picture);
+        uv_mutex_lock(&d->mutex);
+        exchange(&work, &d->newest);
+        d->fresh = true;
+        uv_mutex_unlock(&d->mutex);
+        d->done(d->context);
+    }
+    shot_free(&work);
+    picture_free(&picture);
+    cpu_device_delete(device);
+}
+
+struct drawing *drawing_start(void (*done)(void *context), void *context, struct error *err)
+{
+    struct drawing *d = mem_zalloc(sizeof *d);
+    d->done = done;
+    d->context = context;
+    uv_mutex_init(&d->mutex);
+    uv_cond_init(&d->asked);
+    int failed = uv_thread_create(&d->thread, run, d);
+    if (failed) {
+        error_set(err, "cannot start a thread: %s", uv_strerror(failed));
+        uv_cond_destroy(&d->asked);
+        uv_mutex_destroy(&d->mutex);
+        free(d);
+        return NULL;
+    }
+    return d;
+}
+
+void drawing_ask(struct drawing *d, const struct drawing_job *job)
+{
+    uv_mutex_lock(&d->mutex);
+    struct scene *replaced = d->next.scene;
+    d->next = *job;
+    scene_hold(job->scene);
+    uv_cond_signal(&d->asked);
+    uv_mutex_unlock(&d->mutex);
+    scene_release(replaced);
+}
+
+bool drawing_take(struct drawing *d, struct shot *shot)
+{
+    uv_mutex_lock(&d->mutex);
+    bool fresh = d->fresh;
+    if (fresh)
+        exchange(shot, &d->newest);
+    d->fresh = false;
+    uv_mutex_unlock(&d->mutex);
+    return fresh;
+}
+
+void drawing_stop(struct drawing *d)
+{
+    if (!d)
+        return;
+    uv_mutex_lock(&d->mutex);
+    d->stopping = true;
+    uv_cond_signal(&d->asked);
+    uv_mutex_unlock(&d->mutex);
+    uv_thread_join(&d->thread);
+    shot_free(&d->newest);
+    uv_cond_destroy(&d->asked);
+    uv_mutex_destroy(&d->mutex);
+    free(d);
+}

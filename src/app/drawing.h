@@ -1,0 +1,33 @@
+// drawing.h - draws pictures on a thread of its own: always the newest that was asked for.
+#pragma once
+#include "app/loader.h"
+#include "render/camera.h"
+#include "render/device.h"
+
+struct drawing_job {
+    struct scene *scene; // borrowed when asked; held by the shot
+    struct camera camera;
+    int width, height; // of the picture
+    int divisor;       // how many pixels of the window one of the picture stands for
+    struct render_settings settings;
+    double asked; // clock_seconds
+};
+
+struct shot { // {0} is a valid empty shot
+    struct drawing_job job;
+    uint8_t *rgb; // rows from the top without padding
+    size_t capacity;
+    double begun, done; // clock_seconds
+    struct render_stats stats;
+};
+
+void shot_free(struct shot *s); // leaves {0}
+
+struct drawing;
+// `done` is called from the drawing thread after each shot.
+struct drawing *drawing_start(void (*done)(void *context), void *context, struct error *err);
+// Replaces what was asked for before and is not begun yet.
+void drawing_ask(struct drawing *d, const struct drawing_job *job);
+// Exchanges *shot for the newest one; false when there is none since the last call.
+bool drawing_take(struct drawing *d, struct shot *shot);
+void drawing_stop(struct drawing *d);

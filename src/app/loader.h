@@ -1,0 +1,54 @@
+// loader.h - reads the file, builds its model and follows both, on a thread of its own.
+#pragma once
+#include "csg/csg.h"
+#include "model/model.h"
+#include "render/shade.h"
+
+#include <stdatomic.h>
+
+struct load_times { // clock_seconds
+    double noticed; // the file event, or the start
+    double started; // reading, after the event settled and openscad ended
+    double parsed, built;
+};
+
+// One loaded model, shared by the threads that show it.
+struct scene {
+    struct model model;
+    struct shader shader;
+    struct csg_tree tree; // the places of leaves borrow its file name
+    struct load_times times;
+    uint32_t number; // of the load, from 1
+    atomic_uint references;
+    struct loader *loader;
+    struct scene *next; // among those that nobody holds any more
+};
+
+struct scene *scene_hold(struct scene *s);
+void scene_release(struct scene *s); // NULL is fine
+
+struct loader_options {
+    const char *path;
+    const char *openscad; // NULL: found by scad_start
+    double epsilon;       // of struct model_options
+    const struct scheme *scheme;
+    bool watch;
+    // Called from the loader's thread when there are news, and when the program was asked to end.
+    void (*woken)(void *context);
+    void *context;
+};
+
+struct loader_news {
+    struct scene *scene; // newer than the last one taken, now held by the taker; or NULL
+    char *message;       // what there is to say about the file as it is now, "" when nothing; owned
+    bool failed;         // the message says why there is no newer scene
+    bool busy;           // openscad runs
+    bool ended;          // SIGINT or SIGTERM came
+};
+
+struct loader *loader_start(const struct loader_options *options, struct error *err);
+// False when nothing is new since the last call.
+bool loader_take(struct loader *l, struct loader_news *out);
+void loader_reload(struct loader *l); // as if the file had been saved
+// All scenes have to be released before.
+void loader_stop(struct loader *l);

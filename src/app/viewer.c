@@ -1,0 +1,274 @@
+// viewer.c - hcsg-view: one window that shows one file.
+#include "app/viewer.h"
+
+#include "app/drawing.h"
+#include "app/input.h"
+#include "app/loader.h"
+#include "app/window.h"
+#include "base/clock.h"
+#include "base/mem.h"
+#include "io/write_png.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+// A frame that follows the hand takes this long at most; what is slower is drawn with fewer pixels
+// and refined when nothing moved for a while.
+static const double frame_seconds = 0.033, still_seconds = 0.12;
+enum { DIVISOR_MOST = 8 };
+
+struct viewer {
+    const struct viewer_options *options;
+    struct window *window;
+    struct input input;
+    struct loader *loader;
+    struct drawing *drawing;
+    struct scene *scene; // the newest
+    struct shot shown;
+    bool framed;         // the camera stands
+    bool drawn;          // a shot of the newest job was shown
+    int divisor;         // of the newest job
+    double refine_at;    // when a coarse job may be followed by a full one
+    double setup, pixel; // seconds of the last shot: fixed, and for each pixel
+    uint32_t reported;   // number of the last scene whose way was printed
+    char *message;
+    bool failed, busy, ended;
+    bool help, hide_messages, save;
+};
+
+static void wake(void *context)
+{
+    (void)context;
+    glfwPostEmptyEvent();
+}
+
+static const char *file_name(const struct viewer *v)
+{
+    const char *slash = strrchr(v->options->path, '/');
+    return slash ? slash + 1 : v->options->path;
+}
+
+static void show_state(struct viewer *v)
+{
+    char title[256];
+    const char *name = file_name(v), *message = v->message ? v->message : "";
+    if (v->failed)
+        snprintf(title, sizeof title, "%s: error: %.*s", name, (int)strcspn(message, "\n"),
+                 message);
+    else
+        snprintf(title, sizeof title, "%s%s - hcsg-view", name, v->busy ? " (openscad runs)" : "");
+    glfwSetWindowTitle(window_handle(v->window), title);
+    window_set_text(v->window, WINDOW_TOP, v->help ? input_help : "");
+    window_set_text(v->window, WINDOW_BOTTOM, v->hide_messages ? "" : message);
+    v->input.exposed = true;
+}
+
+static void take_news(struct viewer *v)
+{
+    struct loader_news news;
+    if (!loader_take(v->loader, &news))
+        return;
+    if (news.scene) {
+        scene_release(v->scene);
+        v->scene = news.scene;
+        v->input.scene = news.scene->model.bounds;
+        if (!v->framed && !box_is_empty(v->input.scene)) {
+            input_reset_view(&v->input);
+            v->framed = true;
+        }
+        v->input.moved = true;
+        v->refine_at = 0;
+    }
+    free(v->message);
+    v->message = news.message;
+    v->failed = news.failed;
+    v->busy = news.busy;
+    v->ended = news.ended || (news.failed && !v->options->watch && !v->scene);
+    show_state(v);
+}
+
+// How many pixels of the window, across, one of the picture has to stand for.
+static int choose_divisor(const struct viewer *v, int width, int height)
+{
+    double pixels = (double)width * height;
+    int divisor = 1;
+    while (divisor < DIVISOR_MOST &&
+           v->setup + v->pixel * pixels / (divisor * divisor) > frame_seconds)
+        divisor++;
+    return divisor;
+}
+
+static void ask(struct viewer *v, bool refined)
+{
+    int width, height;
+    glfwGetFramebufferSize(window_handle(v->window), &width, &height);
+    if (!v->scene || width < 1 || height < 1)
+        return;
+    v->divisor = refined ? 1 : choose_divisor(v, width, height);
+    v->drawn = false;
+    struct drawing_job job = {
+        .scene = v->scene,
+        .camera = v->input.camera,
+        .width = (width + v->divisor - 1) / v->divisor,
+        .height = (height + v->divisor - 1) / v->divisor,
+        .divisor = v->divisor,
+        .settings = {.epsilon = model_epsilon(&v->scene->model, v->options->epsilon),
+                     .threads = v->options->threads},
+        .asked = clock_seconds(),
+    };
+    drawing_ask(v->drawing, &job);
+}
+
+static void print_stats(struct viewer *v, double shown)
+{
+    const struct shot *s = &v->shown;
+    const struct load_times *t = &s->job.scene->times;
+    printf("frame %dx%d 1/%d: %.1f ms, asked to shown %.1f ms, setup %.1f ms, %llu fragments, "
+           "%llu misses\n",
+           s->job.width, s->job.height, s->job.divisor, 1e3 * (s->done - s->begun),
+           1e3 * (shown - s->job.asked), 1e3 * s->stats.seconds_setup,
+           (unsigned long long)s->stats.fragments, (unsigned long long)s->stats.misses);
+    if (s->job.scene->number != v->reported)
+        printf("load %u: %.1f ms to shown (wait %.1f, parse %.1f, model %.1f, draw %.1f, "
+               "show %.1f), %u leaves\n",
+               s->job.scene->number, 1e3 * (shown - t->noticed), 1e3 * (t->started - t->noticed),
+               1e3 * (t->parsed - t->started), 1e3 * (t->built - t->parsed),
+               1e3 * (s->done - t->built), 1e3 * (shown - s->done),
+               s->job.scene->model.stats.leaves);
+    fflush(stdout);
+}
+
+// In the current folder, under the first name that is free: part-1.png, part-2.png ...
+static void save_picture(struct viewer *v)
+{
+    const char *name = file_name(v), *dot = strrchr(name, '.');
+    int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
+    char path[600];
+    struct error err;
+    int number = 1;
+    do
+        snprintf(path, sizeof path, "%.*s-%d.png", stem < 500 ? stem : 500, name, number++);
+    while (access(path, F_OK) == 0);
+    if (write_png(path, v->shown.rgb, v->shown.job.width, v->shown.job.height, &err))
+        printf("%s\n", path);
+    else
+        fprintf(stderr, "hcsg-view: %s\n", err.text);
+    fflush(stdout);
+}
+
+static void take_shot(struct viewer *v)
+{
+    if (!drawing_take(v->drawing, &v->shown))
+        return;
+    struct shot *s = &v->shown;
+    double pixels = (double)s->job.width * s->job.height;
+    v->setup = s->stats.seconds_setup;
+    v->pixel = (s->done - s->begun - v->setup) / pixels;
+    window_set_picture(v->window, s->rgb, s->job.width, s->job.height, s->job.divisor > 1);
+    window_paint(v->window);
+    v->input.exposed = false;
+    v->drawn = true;
+    if (v->options->stats)
+        print_stats(v, clock_seconds());
+    v->reported = s->job.scene->number;
+    if (v->save && s->job.divisor == 1) {
+        v->save = false;
+        save_picture(v);
+    }
+}
+
+static void obey(struct viewer *v)
+{
+    unsigned commands = v->input.commands;
+    v->input.commands = 0;
+    if (commands & COMMAND_RELOAD)
+        loader_reload(v->loader);
+    if (commands & COMMAND_HELP)
+        v->help = !v->help;
+    if (commands & COMMAND_MESSAGES)
+        v->hide_messages = !v->hide_messages;
+    if (commands & (COMMAND_HELP | COMMAND_MESSAGES))
+        show_state(v);
+    if (commands & COMMAND_CAMERA) {
+        char text[CAMERA_TEXT];
+        camera_print(&v->input.camera, text);
+        printf("--camera=%s%s\n", text, v->input.camera.orthographic ? " --projection=o" : "");
+        fflush(stdout);
+    }
+    if (commands & COMMAND_SAVE) {
+        v->save = true;
+        ask(v, true);
+    }
+}
+
+// Asks for the pictures that are due; returns how long to wait for events, 0 for ever.
+static double plan(struct viewer *v)
+{
+    double now = clock_seconds();
+    if (v->input.moved) {
+        v->input.moved = false;
+        v->refine_at = v->refine_at == 0 ? now : now + still_seconds;
+        ask(v, false);
+    }
+    if (v->divisor <= 1 || !v->drawn)
+        return 0;
+    if (now < v->refine_at)
+        return v->refine_at - now;
+    ask(v, true);
+    return 0;
+}
+
+static void run(struct viewer *v)
+{
+    GLFWwindow *handle = window_handle(v->window);
+    while (!glfwWindowShouldClose(handle)) {
+        take_news(v);
+        if (v->ended)
+            return;
+        take_shot(v);
+        obey(v);
+        double wait = plan(v);
+        if (v->input.exposed) {
+            v->input.exposed = false;
+            window_paint(v->window);
+        }
+        if (wait > 0)
+            glfwWaitEventsTimeout(wait);
+        else
+            glfwWaitEvents();
+    }
+}
+
+bool viewer_run(const struct viewer_options *options, bool *ok, struct error *err)
+{
+    struct viewer v = {.options = options, .input.camera = options->camera, .reported = 0};
+    struct loader_options loading = {.path = options->path,
+                                     .openscad = options->openscad,
+                                     .epsilon = options->epsilon,
+                                     .scheme = options->scheme,
+                                     .watch = options->watch,
+                                     .woken = wake};
+    v.framed = options->fixed_camera;
+    v.window = window_new(options->width, options->height, options->scheme->background, err);
+    if (!v.window)
+        return false;
+    v.drawing = drawing_start(wake, NULL, err);
+    v.loader = v.drawing ? loader_start(&loading, err) : NULL;
+    if (v.loader) {
+        input_attach(&v.input, window_handle(v.window));
+        show_state(&v);
+        run(&v);
+    }
+    *ok = v.scene || options->watch;
+    drawing_stop(v.drawing);
+    shot_free(&v.shown);
+    scene_release(v.scene);
+    bool started = v.loader != NULL;
+    loader_stop(v.loader);
+    free(v.message);
+    window_delete(v.window);
+    return started;
+}

@@ -1,0 +1,21 @@
+// viewer.h - hcsg-view: one window that shows one file.
+#pragma once
+#include "base/error.h"
+#include "render/camera.h"
+#include "render/scheme.h"
+
+struct viewer_options {
+    const char *path;
+    const char *openscad; // NULL: found by scad_start
+    struct camera camera;
+    bool fixed_camera; // camera as it is; else all of the first model is shown
+    const struct scheme *scheme;
+    double epsilon; // negative: chosen by the model
+    uint32_t threads;
+    int width, height;
+    bool watch, stats;
+};
+
+// Returns when the window is closed. *ok is false when there was nothing to show and nothing to
+// wait for; false with *err set when there is no window.
+bool viewer_run(const struct viewer_options *options, bool *ok, struct error *err);

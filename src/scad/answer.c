@@ -1,0 +1,183 @@
+// answer.c - what openscad leaves behind: its messages and its list of files.
+#include "scad/answer.h"
+
+#include "base/file.h"
+#include "base/mem.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { LOG_KEPT = 1 << 18, RULE_LIMIT = 1 << 24 };
+
+// A design may echo without end; its newest messages say why it stopped.
+void scad_log_add(struct scad_log *log, const char *data, size_t size)
+{
+    if (!log->text)
+        log->text = mem_alloc(2 * LOG_KEPT + 1);
+    while (size) {
+        size_t part = size < LOG_KEPT ? size : LOG_KEPT;
+        if (log->size + part > 2 * LOG_KEPT) {
+            size_t drop = log->size - LOG_KEPT;
+            const char *line = memchr(log->text + drop, '\n', LOG_KEPT);
+            if (line)
+                drop = (size_t)(line + 1 - log->text);
+            log->size -= drop;
+            memmove(log->text, log->text + drop, log->size);
+        }
+        for (size_t i = 0; i < part; i++)
+            log->text[log->size + i] = data[i] ? data[i] : ' ';
+        log->size += part;
+        data += part;
+        size -= part;
+    }
+    log->text[log->size] = 0;
+}
+
+// The next line of *text, NULL at the end.
+static const char *next_line(const char **text, size_t *length)
+{
+    const char *line = *text;
+    if (!line || !*line)
+        return NULL;
+    *length = strcspn(line, "\n");
+    *text = line + *length + (line[*length] == '\n');
+    return line;
+}
+
+static bool begins(const char *line, size_t length, const char *prefix)
+{
+    size_t n = strlen(prefix);
+    return length >= n && memcmp(line, prefix, n) == 0;
+}
+
+bool scad_log_has_error(const char *log)
+{
+    size_t length;
+    for (const char *line; (line = next_line(&log, &length));)
+        if (begins(line, length, "ERROR:"))
+            return true;
+    return false;
+}
+
+// Finds "in file NAME, line N" at the end of a message; returns the number and where it stands.
+static unsigned long find_place(const char *line, size_t length, size_t *at, size_t *name,
+                                size_t *name_length)
+{
+    static const char in_file[] = " in file ", comma_line[] = ", line ";
+    const char *end = line + length, *found = NULL, *comma = NULL;
+    for (const char *p = line; (p = memmem(p, (size_t)(end - p), in_file, sizeof in_file - 1)); p++)
+        found = p;
+    if (!found)
+        return 0;
+    for (const char *p = found;
+         (p = memmem(p, (size_t)(end - p), comma_line, sizeof comma_line - 1)); p++)
+        comma = p;
+    if (!comma)
+        return 0;
+    *at = (size_t)(found - line);
+    *name = *at + sizeof in_file - 1;
+    *name_length = (size_t)(comma - line) - *name;
+    return strtoul(comma + sizeof comma_line - 1, NULL, 10);
+}
+
+// openscad names files relative to the folder of the main file.
+static char *file_of_place(const char *path, const char *name, size_t length)
+{
+    char *folder = file_folder(path), *own = mem_alloc(length + 1);
+    memcpy(own, name, length);
+    own[length] = 0;
+    char *joined = file_join(folder, own);
+    free(folder);
+    free(own);
+    return joined;
+}
+
+void scad_log_error(const char *log, const char *path, struct error *err)
+{
+    const char *first = NULL, *last = NULL;
+    size_t length, first_length = 0, last_length = 0;
+    for (const char *line; (line = next_line(&log, &length));) {
+        if (!first && begins(line, length, "ERROR:")) {
+            first = line;
+            first_length = length;
+        }
+        if (length) {
+            last = line;
+            last_length = length;
+        }
+    }
+    if (!first) {
+        error_set(err, "%s: openscad: %.*s", path, (int)(last_length < 500 ? last_length : 500),
+                  last ? last : "failed without a message");
+        return;
+    }
+    size_t skip = strlen("ERROR:");
+    while (skip < first_length && first[skip] == ' ')
+        skip++;
+    size_t at = first_length, name = 0, name_length = 0;
+    unsigned long number = find_place(first, first_length, &at, &name, &name_length);
+    size_t shown = at - skip < 500 ? at - skip : 500;
+    if (!number) {
+        error_set(err, "%s: openscad: %.*s", path, (int)shown, first + skip);
+        return;
+    }
+    char *file = file_of_place(path, first + name, name_length);
+    error_at(err, (struct place){.file = file, .line = (uint32_t)number}, "%.*s", (int)shown,
+             first + skip);
+    free(file);
+}
+
+static void add_file(struct scad_result *out, uint32_t *capacity, char *file)
+{
+    for (uint32_t i = 0; i < out->file_count; i++)
+        if (strcmp(out->files[i], file) == 0) {
+            free(file);
+            return;
+        }
+    array_reserve(&out->files, capacity, out->file_count + 1);
+    out->files[out->file_count++] = file;
+}
+
+// One line of the rule: a tab, the name with its blanks escaped, and " \" unless it is the last.
+static char *file_of_rule(const char *line, size_t length)
+{
+    while (length && (*line == '\t' || *line == ' ')) {
+        line++;
+        length--;
+    }
+    if (length >= 2 && line[length - 1] == '\\' && line[length - 2] == ' ')
+        length -= 2;
+    if (!length)
+        return NULL;
+    char *file = mem_alloc(length + 1);
+    size_t n = 0;
+    for (size_t i = 0; i < length; i++)
+        if (line[i] != '\\' || i + 1 == length || line[i + 1] != ' ')
+            file[n++] = line[i];
+    file[n] = 0;
+    return file;
+}
+
+void scad_read_files(const char *rule_path, const char *path, struct scad_result *out)
+{
+    uint32_t capacity = out->file_count;
+    char *rule = NULL;
+    size_t size, length;
+    add_file(out, &capacity, mem_strdup(path));
+    if (file_read(rule_path, RULE_LIMIT, &rule, &size, NULL)) {
+        const char *rest = rule;
+        next_line(&rest, &length); // the target
+        for (const char *line; (line = next_line(&rest, &length));) {
+            char *file = file_of_rule(line, length);
+            if (file)
+                add_file(out, &capacity, file);
+        }
+        free(rule);
+    }
+    const char *rest = out->log;
+    for (const char *line; (line = next_line(&rest, &length));) {
+        size_t at, name, name_length;
+        if (begins(line, length, "ERROR:") && find_place(line, length, &at, &name, &name_length))
+            add_file(out, &capacity, file_of_place(path, line + name, name_length));
+    }
+}

@@ -1,0 +1,32 @@
+// openscad.h - the openscad program as a child process that exports a .scad file as .csg text.
+#pragma once
+#include "base/error.h"
+
+#include <stddef.h>
+
+struct uv_loop_s;
+
+struct scad_result { // {0} is a valid empty result
+    char *text; // the .csg, followed by two zero bytes that are not counted; NULL after a failure
+    size_t size;
+    char *name;   // of the text in messages; imports in the text are relative to its folder
+    char **files; // what the text depends on, the .scad itself first
+    uint32_t file_count;
+    char *log; // what openscad said, without its statistics
+};
+
+void scad_result_free(struct scad_result *r); // leaves {0}
+
+// Exports and waits for the end. `program` NULL means $OPENSCAD, or else "openscad" on the PATH.
+// After a failure *out holds files and log all the same.
+bool scad_export(const char *path, const char *program, struct scad_result *out, struct error *err);
+
+// The same without waiting. `done` is called once, from the loop; it takes the result over. `err`
+// is NULL when the export went well.
+struct scad_job;
+typedef void scad_done(void *context, struct scad_result *result, const struct error *err);
+struct scad_job *scad_start(struct uv_loop_s *loop, const char *path, const char *program,
+                            scad_done *done, void *context);
+// Kills the child with all its children; `done` is not called any more. The job ends itself on the
+// loop, which has to run until then.
+void scad_cancel(struct scad_job *job);

@@ -1,0 +1,132 @@
+// view_main.c - hcsg-view: options, then one call.
+#include "app/viewer.h"
+#include "base/mem.h"
+#include "base/options.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static struct {
+    const char *camera, *projection, *scheme, *size, *openscad;
+    uint32_t threads;
+    double epsilon;
+    bool stats, no_watch;
+} given = {.epsilon = -1};
+
+static const struct option options[] = {
+    {"camera", 0, OPTION_TEXT, "NUMBERS", "x,y,z,rx,ry,rz,distance or eye and centre x,y,z,x,y,z",
+     &given.camera, 0, 0},
+    {"projection", 0, OPTION_TEXT, "KIND", "o(rtho) or p(erspective)", &given.projection, 0, 0},
+    {"colorscheme", 0, OPTION_TEXT, "NAME", "one of OpenSCAD's, Cornfield if not given",
+     &given.scheme, 0, 0},
+    {"size", 0, OPTION_TEXT, "W,H", "of the window in pixels, 1024,768 if not given", &given.size,
+     0, 0},
+    {"threads", 0, OPTION_COUNT, "N", "for drawing, one per processor if not given", &given.threads,
+     1, 256},
+    {"eps", 0, OPTION_NUMBER, "MM", "layers thinner than this do not show", &given.epsilon, 0, 1e9},
+    {"openscad", 0, OPTION_TEXT, "PROGRAM",
+     "exports .scad files; if not given $OPENSCAD,\nor openscad on the PATH", &given.openscad, 0,
+     0},
+    {"no-watch", 0, OPTION_FLAG, NULL, "load the file once, do not follow it", &given.no_watch, 0,
+     0},
+    {"stats", 0, OPTION_FLAG, NULL, "print the times of frames and loads", &given.stats, 0, 0},
+};
+
+static bool read_projection(bool *orthographic, struct error *err)
+{
+    static const char *const names[] = {"p", "perspective", "o", "ortho", "orthogonal"};
+    for (size_t i = 0; i < array_count(names); i++)
+        if (strcasecmp(given.projection, names[i]) == 0) {
+            *orthographic = i >= 2;
+            return true;
+        }
+    error_set(err, "--projection=%s: expected o or p", given.projection);
+    return false;
+}
+
+static bool read_size(int *width, int *height, struct error *err)
+{
+    enum { LEAST = 64, MOST = 16384 };
+    char rest;
+    if (sscanf(given.size, "%d,%d%c", width, height, &rest) == 2 && *width >= LEAST &&
+        *height >= LEAST && *width <= MOST && *height <= MOST)
+        return true;
+    error_set(err, "--size=%s: expected W,H from %d to %d", given.size, LEAST, MOST);
+    return false;
+}
+
+// Said before a window opens; a file that breaks later only leaves a message in the window.
+static bool check_file(const char *path, struct error *err)
+{
+    struct stat st;
+    if (strcmp(path, "-") == 0)
+        error_set(err, "standard input cannot be followed: name a file");
+    else if (stat(path, &st) != 0 || access(path, R_OK) != 0)
+        error_set(err, "%s: %s", path, strerror(errno));
+    else if (S_ISDIR(st.st_mode))
+        error_set(err, "%s: is a folder, not a file", path);
+    else
+        return true;
+    return false;
+}
+
+static bool set_options(struct viewer_options *o, struct error *err)
+{
+    *o = (struct viewer_options){.openscad = given.openscad,
+                                 .camera = CAMERA_DEFAULTS,
+                                 .fixed_camera = given.camera != NULL,
+                                 .scheme =
+                                     scheme_find(given.scheme ? given.scheme : "Cornfield", err),
+                                 .epsilon = given.epsilon,
+                                 .threads = given.threads,
+                                 .width = 1024,
+                                 .height = 768,
+                                 .watch = !given.no_watch,
+                                 .stats = given.stats};
+    return o->scheme && (!given.camera || camera_parse(&o->camera, given.camera, err)) &&
+           (!given.projection || read_projection(&o->camera.orthographic, err)) &&
+           (!given.size || read_size(&o->width, &o->height, err));
+}
+
+int main(int argc, char **argv)
+{
+    static const struct program program = {
+        .name = "hcsg-view",
+        .version = HCSG_VERSION,
+        .summary = "shows an OpenSCAD model and follows its file",
+        .operands = "FILE.csg|FILE.scad",
+        .options = options,
+        .option_count = array_count(options),
+    };
+    struct error err;
+    struct viewer_options o;
+    int files;
+    bool shown = false;
+    switch (options_parse(&program, argc, argv, &files, &err)) {
+    case OPTIONS_DONE:
+        return 0;
+    case OPTIONS_WRONG:
+        goto wrong;
+    case OPTIONS_RUN:
+        break;
+    }
+    if (files != 1) {
+        error_set(&err, "expected one file; hcsg-view --help lists the options");
+        goto wrong;
+    }
+    if (!set_options(&o, &err) || !check_file(argv[1], &err))
+        goto wrong;
+    o.path = argv[1];
+    if (!viewer_run(&o, &shown, &err)) {
+        fprintf(stderr, "hcsg-view: %s (hcsg-render draws without a window)\n", err.text);
+        return 2;
+    }
+    return shown ? 0 : 1;
+wrong:
+    fprintf(stderr, "hcsg-view: %s\n", err.text);
+    return 1;
+}
