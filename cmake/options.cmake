@@ -30,6 +30,7 @@ endfunction()
 # ./build/hcsg-render starts it, installed with its man page docs/hcsg-render.1.
 function(hcsg_program name main)
     add_executable(${name} ${main})
+    target_compile_definitions(${name} PRIVATE HCSG_VERSION="${PROJECT_VERSION}")
     target_link_libraries(${name} PRIVATE ${ARGN} hcsg_warnings)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
     install(TARGETS ${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
