@@ -1,0 +1,83 @@
+# render_errors.sh PROGRAM SOURCE - wrong use and bad input: one clear line and the right exit code.
+render=$1
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failed=0
+
+fault() {
+    echo "FAILED: $*"
+    failed=1
+}
+
+# expect CODE TEXT ARGUMENTS...: the exit code, one line on stderr that holds TEXT, no out.png.
+expect() {
+    code=$1 text=$2
+    shift 2
+    timeout 60 "$render" "$@" >stdout 2>stderr
+    got=$?
+    [ $got -eq "$code" ] || fault "$*: exit code $got, not $code"
+    [ "$(wc -l <stderr)" -eq 1 ] || fault "$*: $(wc -l <stderr) lines of errors"
+    grep -qF -- "$text" stderr || fault "$*: '$(cat stderr)' does not say '$text'"
+    [ -e out.png ] && fault "$*: left out.png"
+    rm -f out.png
+}
+
+echo 'cube(size = [10, 10, 10], center = false);' >a.csg
+mkdir folder
+
+# Use
+expect 1 'no input file' -o out.png
+expect 1 'expected one input file, got 2' -o out.png a.csg a.csg
+expect 1 'no output; give -o' a.csg
+expect 1 'expected FILE after it' a.csg -o
+expect 1 'unknown option --imagesize; did you mean --imgsize?' --imagesize=3,3 -o out.png a.csg
+expect 1 'unknown option -z' -z -o out.png a.csg
+expect 1 'only PNG pictures can be written, not .stl' -o out.stl a.csg
+for size in 0,5 5,0 -1,5 5 5,5,5 a,b '' 1e3,5 40000,1 32768,32768 99999999999999999999,5; do
+    expect 1 '--imgsize: expected' "--imgsize=$size" -o out.png a.csg
+done
+for camera in '' 1 1,2,3,4,5 1,2,3,4,5,6,7,8 a,b,c,d,e,f 1,2,3,4,5,nan 0,0,0,0,0,0,-1; do
+    expect 1 '--camera: ' "--camera=$camera" -o out.png a.csg
+done
+expect 1 'distance must be above 0' --camera=1,1,1,1,1,1 -o out.png a.csg
+expect 1 "--projection: expected" --projection=x -o out.png a.csg
+expect 1 "no colour scheme 'corn'; there are: Cornfield, Metallic" --colorscheme=corn -o out.png a.csg
+expect 1 '--device: expected auto or cpu' --device=gl -o out.png a.csg
+expect 1 '--threads: expected' --threads=-1 -o out.png a.csg
+expect 1 '--eps: expected' --eps=-1 -o out.png a.csg
+expect 1 '--memory: expected' --memory=0 -o out.png a.csg
+
+# Input
+expect 1 'missing.csg: No such file' -o out.png missing.csg
+expect 1 'folder: ' -o out.png folder
+expect 1 'missing.scad' -o out.png missing.scad
+if [ "$(id -u)" -ne 0 ]; then
+    echo 'cube();' >closed.csg
+    chmod 000 closed.csg
+    expect 1 'closed.csg: Permission denied' -o out.png closed.csg
+fi
+
+# Output
+expect 2 'none/out.png: No such file' -o none/out.png a.csg
+expect 2 'folder: ' -o folder a.csg
+[ -w /dev/full ] && expect 2 '/dev/full: No space left' -o /dev/full a.csg
+"$render" -o - a.csg >&- 2>stderr
+[ $? -eq 2 ] || fault 'closed standard output: wrong exit code'
+grep -q 'standard output: ' stderr || fault "closed standard output: '$(cat stderr)'"
+if [ -w /dev/full ]; then
+    for arguments in '-o - a.csg' '--help' '--version' '--summary a.csg'; do
+        # shellcheck disable=SC2086 # several words
+        "$render" $arguments >/dev/full 2>stderr
+        [ $? -ne 0 ] || fault "$arguments to a full disk: exit code 0"
+        [ "$(wc -l <stderr)" -eq 1 ] || fault "$arguments to a full disk: '$(cat stderr)'"
+    done
+fi
+
+# A failure keeps the picture that was there, and no temporary file stays.
+echo old >out.png
+"$render" -o out.png missing.csg 2>/dev/null
+[ "$(cat out.png)" = old ] || fault 'a failure changed out.png'
+rm -f out.png
+[ -z "$(find . -name '*.png*')" ] || fault "left behind: $(find . -name '*.png*')"
+exit $failed
