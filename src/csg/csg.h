@@ -32,6 +32,10 @@ struct csg_argument {
 
 enum { CSG_BACKGROUND = 1, CSG_HIGHLIGHT = 2, CSG_ROOT = 4, CSG_DISABLE = 8 }; // % # ! *
 
+// An assignment such as `$fn = 8;` is a node named CSG_ASSIGN ("=") with one argument, which holds
+// the name and the value. OpenSCAD makes all assignments of a block before anything else in it.
+#define CSG_ASSIGN "="
+
 struct csg_node {
     const char *name; // interned: equal names have equal pointers within a tree
     const struct csg_argument *arguments;
@@ -42,19 +46,21 @@ struct csg_node {
     bool block; // written with { }
 };
 
-struct csg_tree { // {0} is a valid empty tree
-    char *file;              // name as in messages
-    struct csg_node *first;  // top-level nodes, linked by next
+struct csg_tree {           // {0} is a valid empty tree
+    char *file;             // name as in messages
+    struct csg_node *first; // top-level nodes, linked by next
     uint32_t node_count;
-    struct arena arena;      // owns everything above but `file`
+    struct arena arena; // owns everything above but `file`
 };
 
 // Parses `size` bytes at `text` (terminated by two zero bytes that are not counted, as file_read
-// gives it). On errors adds messages with place and source line and returns false with *out = {0}.
+// gives it; they are the scanner's to work in, and as before afterwards). On errors adds messages
+// with place and source line and returns false with *out = {0}.
 bool csg_parse(struct csg_tree *out, const char *file, char *text, size_t size,
                struct messages *messages);
 bool csg_parse_file(struct csg_tree *out, const char *path, struct messages *messages);
 void csg_free(struct csg_tree *t); // leaves {0}
 
-// Writes the tree as OpenSCAD exports it. Returns a malloc'ed text and its length.
+// Writes the tree as OpenSCAD 2021.01 exports it. Returns a malloc'ed text and its length. Trees
+// deeper than 10,000 are not indented, whose tabs alone would fill the memory.
 char *csg_print(const struct csg_tree *t, size_t *size);

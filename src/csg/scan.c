@@ -1,0 +1,276 @@
+// scan.c - the values of numbers and strings.
+#include "csg/parser.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_digit(char c)
+{
+    return (unsigned char)(c - '0') < 10;
+}
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+static bool is_word(char c)
+{
+    return isalnum((unsigned char)c) || c == '_' || c == '$';
+}
+
+void csg_count_lines(struct csg_parser *p, const char *from, const char *to)
+{
+    for (; (from = memchr(from, '\n', (size_t)(to - from))); from++) {
+        p->line++;
+        p->line_start = from + 1;
+    }
+}
+
+// strtod, but with a decimal point in every locale.
+static double slow_number(struct csg_parser *p, const char *text, char **end)
+{
+    if (!p->c_locale)
+        p->c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    return strtod_l(text, end, p->c_locale);
+}
+
+// Up to 19 digits and a small power of ten: both are exact doubles when the digits fit 53 bits, and
+// one correctly rounded operation gives what strtod gives. Everything else is strtod's.
+double csg_scan_number(struct csg_parser *p, const char *text, const char **end)
+{
+    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                    1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    const char *s = text;
+    uint64_t digits = 0;
+    int32_t count = 0, exponent = 0;
+
+    for (; is_digit(*s) && count < 19; s++, count += digits != 0)
+        digits = digits * 10 + (uint64_t)(*s - '0');
+    if (*s == '.') {
+        const char *point = ++s;
+        for (; is_digit(*s) && count < 19; s++, count += digits != 0)
+            digits = digits * 10 + (uint64_t)(*s - '0');
+        exponent = s - point > 400 ? -400 : (int32_t)(point - s);
+    }
+    if (is_digit(*s))
+        count = INT32_MAX;
+    else if (*s == 'e' || *s == 'E') {
+        bool negative = s[1] == '-';
+        int32_t written = 0;
+        for (s += s[1] == '-' || s[1] == '+' ? 2 : 1; is_digit(*s); s++)
+            written = written < 10000 ? written * 10 + (*s - '0') : written;
+        exponent += negative ? -written : written;
+    }
+    *end = s;
+    if (count <= 19 && digits <= (uint64_t)1 << 53 && exponent >= -22 && exponent <= 22)
+        return exponent < 0 ? (double)digits / powers[-exponent]
+                            : (double)digits * powers[exponent];
+    char *stop;
+    double value = slow_number(p, text, &stop);
+    *end = stop;
+    return value;
+}
+
+double csg_scan_hex(const char *text)
+{
+    double value = 0;
+    for (text += 2; isxdigit((unsigned char)*text); text++) {
+        int c = tolower((unsigned char)*text);
+        value = value * 16 + (c <= '9' ? c - '0' : c - 'a' + 10);
+    }
+    return value;
+}
+
+// `text` is behind the '['; the scanner has seen that only numbers, commas and blanks follow.
+struct csg_value csg_scan_numbers(struct csg_parser *p, const char *text, const char *end)
+{
+    struct csg_value value = {.kind = CSG_NUMBERS};
+    double *copy = NULL;
+
+    while (text < end) {
+        bool negative = *text == '-';
+        if (*text == '\n') {
+            p->line++;
+            p->line_start = text + 1;
+        }
+        if (*text <= ',' && *text != '-' && *text != '+') { // blanks and commas
+            text++;
+            continue;
+        }
+        if (*text == ']')
+            break;
+        text += *text == '-' || *text == '+';
+        double number;
+        if (*text == 'i' || *text == 'n') {
+            number = *text == 'i' ? (double)INFINITY : (double)NAN;
+            text += 3;
+        } else {
+            number = csg_scan_number(p, text, &text);
+        }
+        if (value.count == p->number_capacity)
+            array_reserve(&p->numbers, &p->number_capacity, (size_t)value.count + 1);
+        p->numbers[value.count++] = negative ? -number : number;
+    }
+    if (value.count) {
+        copy = arena_alloc(&p->tree.arena, value.count * sizeof *copy);
+        memcpy(copy, p->numbers, value.count * sizeof *copy);
+    }
+    value.numbers = copy;
+    return value;
+}
+
+static const char *skip_blanks(const char *s)
+{
+    while (is_blank(*s))
+        s++;
+    return s;
+}
+
+static const char *skip_word(const char *s)
+{
+    while (is_word(*s))
+        s++;
+    return s;
+}
+
+// The first quote that is not escaped, or the zero byte behind the text.
+static const char *closing_quote(const char *s)
+{
+    for (;;) {
+        s += strcspn(s, "\"\\");
+        if (*s != '\\' || !s[1])
+            return *s == '\\' ? s + 1 : s;
+        s += 2;
+    }
+}
+
+// ", name =" or ")" with what ends a call: in an export nothing else follows a named string.
+static bool export_follows(const char *s)
+{
+    s = skip_blanks(s);
+    if (*s == ')') {
+        s = skip_blanks(s + 1);
+        return *s == ';' || *s == '{' || !*s;
+    }
+    if (*s != ',')
+        return false;
+    const char *name = skip_blanks(s + 1), *rest = skip_blanks(skip_word(name));
+    return skip_word(name) > name && rest[0] == '=' && rest[1] != '=';
+}
+
+// Could this follow the closing quote of the string in `name = "..."`?
+static bool any_follows(const char *s)
+{
+    s = skip_blanks(s);
+    if (*s != ',')
+        return !*s || strchr(")];/", *s);
+    s = skip_blanks(s + 1);
+    const char *rest = s;
+    while (is_word(*rest) || *rest == '.' || *rest == '+' || *rest == '-')
+        rest++;
+    return rest == s || strchr("=,)", *skip_blanks(rest));
+}
+
+// OpenSCAD exports the strings of text() without escapes: those that hold a quote or end in a
+// backslash are broken. The true end of such a string in the line, or NULL.
+static const char *raw_end(struct csg_parser *p, const char *text)
+{
+    const char *line_end = text + strcspn(text, "\n");
+
+    if (text < p->no_raw_end)
+        return NULL;
+    for (const char *s = text; (s = memchr(s, '"', (size_t)(line_end - s))); s++)
+        if (export_follows(s + 1))
+            return s;
+    p->no_raw_end = line_end; // or a line of nothing but quotes would take forever
+    return NULL;
+}
+
+static char *put_utf8(char *out, uint32_t c)
+{
+    if (c > 0x10FFFF || (c >= 0xD800 && c < 0xE000))
+        c = 0xFFFD;
+    if (c < 0x80) {
+        *out++ = (char)(c ? c : ' ');
+        return out;
+    }
+    int more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
+    *out++ = (char)((0xF00u >> more) | c >> 6 * more);
+    while (more--)
+        *out++ = (char)(0x80u | ((c >> 6 * more) & 0x3F));
+    return out;
+}
+
+// The character of `digits` hex digits at s.
+static bool hex_escape(const char *s, int digits, uint32_t *c)
+{
+    *c = 0;
+    for (int i = 0; i < digits; i++) {
+        if (!isxdigit((unsigned char)s[i]))
+            return false;
+        int low = tolower((unsigned char)s[i]);
+        *c = *c << 4 | (uint32_t)(low <= '9' ? low - '0' : low - 'a' + 10);
+    }
+    return true;
+}
+
+// Writes what the text between from and to means; returns its end. An escape that is none only
+// loses its backslash.
+static char *unescape(char *out, const char *from, const char *to)
+{
+    while (from < to) {
+        uint32_t c;
+        if (*from != '\\' || from + 1 == to) {
+            *out++ = *from++;
+            continue;
+        }
+        char kind = from[1];
+        int digits = kind == 'x' ? 2 : kind == 'u' ? 4 : kind == 'U' ? 6 : 0;
+        from += 2;
+        if (digits && to - from >= digits && hex_escape(from, digits, &c) &&
+            (kind != 'x' || c < 0x80)) {
+            out = put_utf8(out, c);
+            from += digits;
+            continue;
+        }
+        *out++ = (char)(kind == 'n' ? '\n' : kind == 't' ? '\t' : kind == 'r' ? '\r' : kind);
+    }
+    return out;
+}
+
+static bool after_equals(struct csg_parser *p, const char *quote)
+{
+    do
+        quote--;
+    while (quote >= p->text && is_blank(*quote));
+    return quote >= p->text && *quote == '=';
+}
+
+const char *csg_scan_string(struct csg_parser *p, const char *quote, struct csg_value *value)
+{
+    const char *text = quote + 1, *close = closing_quote(text), *raw = NULL;
+
+    if (after_equals(p, quote) && (!*close || !any_follows(close + 1)))
+        raw = raw_end(p, text);
+    bool lines = memchr(text, '\n', (size_t)(close - text)) != NULL;
+    if (!raw && (!*close || (lines && after_equals(p, quote) && !any_follows(close + 1)))) {
+        csg_error(p, quote, "this string is never closed: '\"' is missing");
+        close = text + strcspn(text, "\n");
+        *value = (struct csg_value){.kind = CSG_STRING, .string = ""};
+        return close;
+    }
+    const char *end = raw ? raw : close;
+    char *copy = arena_alloc(&p->tree.arena, (size_t)(end - text) + 1), *last;
+    if (raw)
+        last = (char *)memcpy(copy, text, (size_t)(end - text)) + (end - text);
+    else
+        last = unescape(copy, text, end);
+    *last = 0;
+    *value = (struct csg_value){CSG_STRING, (uint32_t)(last - copy), .string = copy};
+    csg_count_lines(p, text, end);
+    return end + 1;
+}
