@@ -31,6 +31,24 @@ static void place_leaf(struct oracle_placed *out, const struct oracle_leaf *leaf
     }
 }
 
+// From the last token back: each operator hands its polarity to its operands, last operand on top.
+static void find_polarity(struct oracle *o)
+{
+    int *stack = mem_alloc((o->token_count + 1) * sizeof *stack);
+    size_t top = 0;
+    stack[top++] = 1;
+    for (size_t i = o->token_count; i-- > 0;) {
+        struct expr_token token = o->tokens[i];
+        int polarity = stack[--top];
+        if (token.op == EXPR_LEAF)
+            o->polarity[token.arg] = polarity;
+        else
+            for (uint32_t k = 0; k < token.arg; k++)
+                stack[top++] = token.op == EXPR_DIFFERENCE && k ? -polarity : polarity;
+    }
+    free(stack);
+}
+
 void oracle_init(struct oracle *out, const struct oracle_leaf *leaves, uint32_t leaf_count,
                  const struct expr_token *tokens, size_t token_count)
 {
@@ -41,6 +59,8 @@ void oracle_init(struct oracle *out, const struct oracle_leaf *leaves, uint32_t 
         if (leaves[i].mesh->vertex_count > out->max_vertices)
             out->max_vertices = leaves[i].mesh->vertex_count;
     }
+    out->polarity = mem_zalloc(leaf_count * sizeof *out->polarity);
+    find_polarity(out);
 }
 
 void oracle_free(struct oracle *o)
@@ -50,6 +70,7 @@ void oracle_free(struct oracle *o)
         free(o->leaves[i].normals);
     }
     free(o->leaves);
+    free(o->polarity);
     *o = (struct oracle){0};
 }
 

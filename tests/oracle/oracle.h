@@ -23,6 +23,7 @@ struct oracle_placed {               // a leaf in the world
 struct oracle {
     struct oracle_placed *leaves;
     uint32_t leaf_count;
+    int *polarity;                   // per leaf: -1 under an odd number of subtractions, else 1
     const struct expr_token *tokens; // borrowed
     size_t token_count;
     uint32_t max_vertices;

@@ -1,0 +1,30 @@
+// compare.h - does the device's answer for a pixel agree with the oracle?
+//
+// A pixel is unstable when the oracle itself changes its mind nearby: when a solid or gap is
+// between a fifth of and five times the filter's thickness, or when a ray a thousandth of a pixel
+// aside sees other spans or a step in depth. There the device may give any of the answers seen
+// nearby.
+#pragma once
+#include "subject.h"
+
+enum verdict {
+    VERDICT_AGREES,
+    VERDICT_FORGIVEN,    // unstable, and one of the answers nearby
+    VERDICT_UNEXPLAINED, // unstable, and none of them
+    VERDICT_WRONG,
+    VERDICTS
+};
+
+struct comparison { // {0} but for what is borrowed; one per thread
+    const struct oracle *oracle;
+    const struct rays *rays;
+    double epsilon;
+    double tolerance; // of depth
+    struct oracle_ray ray, other;
+    struct oracle_answer answer, trial;
+    const char *reason; // what did not fit at the pixel itself
+};
+
+enum verdict compare_pixel(struct comparison *c, const struct picture *p, int x, int y);
+bool compare_unstable(struct comparison *c, int x, int y); // after compare_pixel of this pixel
+void compare_free(struct comparison *c);

@@ -1,0 +1,173 @@
+// subject.c - what is under test.
+#include "subject.h"
+
+#include "base/mem.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void make_leaves(struct subject *s, const struct random_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->leaf_count; i++) {
+        struct leaf *leaf = &s->body.leaves[i];
+        leaf->solid = &s->solids[scene->leaves[i].mesh];
+        leaf->to_world = scene->leaves[i].to_world;
+        affine_inverse(&leaf->to_world, &leaf->to_local);
+        leaf->mirrored = affine_determinant(&leaf->to_world) < 0;
+        leaf->box = BOX_EMPTY;
+        for (uint32_t k = 0; k < leaf->solid->mesh.vertex_count; k++)
+            leaf->box = box_of_point(leaf->box,
+                                     affine_point(&leaf->to_world, leaf->solid->mesh.vertices[k]));
+    }
+}
+
+void subject_make(struct subject *out, const struct random_scene *scene)
+{
+    uint32_t n = scene->leaf_count;
+    *out = (struct subject){.solid_count = scene->mesh_count};
+    struct body *b = &out->body;
+    out->solids = mem_zalloc(scene->mesh_count * sizeof *out->solids);
+    for (uint32_t i = 0; i < scene->mesh_count; i++) {
+        struct mesh copy;
+        shape_copy(&copy, &scene->meshes[i].mesh);
+        solid_from_mesh(&out->solids[i], &copy, scene->meshes[i].convex, i + 1);
+    }
+    b->leaf_count = n;
+    b->leaves = mem_zalloc(n * sizeof *b->leaves);
+    b->roi = mem_alloc((n + 1) * sizeof *b->roi);
+    make_leaves(out, scene);
+
+    struct box *boxes = mem_alloc((n + 1) * sizeof *boxes);
+    bool *flags = mem_alloc(n + 1);
+    struct expr whole;
+    for (uint32_t i = 0; i < n; i++)
+        boxes[i] = b->leaves[i].box;
+    expr_build(&whole, scene->tokens, scene->token_count, n);
+    roi_build(b->roi, &whole, boxes);
+    for (uint32_t i = 0; i < n; i++)
+        flags[i] = !box_is_empty(b->roi[i]);
+    expr_without(&b->expr, &whole, flags);
+    expr_free(&whole);
+    roi_build(b->roi, &b->expr, boxes);
+    for (uint32_t i = 0; i < n; i++)
+        flags[i] = b->leaves[i].solid->convex;
+    sharing_build(&b->sharing, &b->expr, flags, true);
+    b->table = discovery_new(&b->expr, &b->sharing);
+    free(boxes);
+    free(flags);
+}
+
+void subject_free(struct subject *s)
+{
+    discovery_delete(s->body.table);
+    sharing_free(&s->body.sharing);
+    expr_free(&s->body.expr);
+    free(s->body.leaves);
+    free(s->body.roi);
+    for (uint32_t i = 0; i < s->solid_count; i++)
+        solid_free(&s->solids[i]);
+    free(s->solids);
+    *s = (struct subject){0};
+}
+
+struct oracle_leaf *subject_leaves(const struct body *body)
+{
+    struct oracle_leaf *leaves = mem_alloc((body->leaf_count + 1) * sizeof *leaves);
+    for (uint32_t i = 0; i < body->leaf_count; i++)
+        leaves[i] = (struct oracle_leaf){&body->leaves[i].solid->mesh, body->leaves[i].to_world};
+    return leaves;
+}
+
+struct expr_token *subject_tokens(const struct expr *e, size_t *count)
+{
+    struct expr_token *tokens = mem_alloc((2 * (size_t)e->node_count + 1) * sizeof *tokens);
+    *count = 0;
+    for (uint32_t i = 0; i < e->node_count && e->root != EXPR_NONE; i++) {
+        const struct expr_node *n = &e->nodes[i];
+        if (n->op == EXPR_LEAF)
+            tokens[(*count)++] = (struct expr_token){EXPR_LEAF, n->leaf};
+        else if (n->minus == EXPR_NONE || n->op == EXPR_UNION)
+            tokens[(*count)++] = (struct expr_token){n->op, n->count};
+        else
+            tokens[(*count)++] = (struct expr_token){EXPR_DIFFERENCE, 2};
+        if (n->parent == EXPR_NONE)
+            continue;
+        // Operands stand before what is subtracted from them.
+        const struct expr_node *up = &e->nodes[n->parent];
+        if (up->op == EXPR_INTERSECTION && up->minus != EXPR_NONE &&
+            e->kids[up->first + up->count - 1] == i)
+            tokens[(*count)++] = (struct expr_token){EXPR_INTERSECTION, up->count};
+    }
+    return tokens;
+}
+
+struct collector {
+    struct picture *picture;
+    int width;
+};
+
+static void collect(void *context, uint32_t worker, const struct span_block *block)
+{
+    (void)worker;
+    struct collector *c = context;
+    uint32_t i = 0;
+    for (int y = block->y0; y < block->y1; y++)
+        for (int x = block->x0; x < block->x1; x++, i++) {
+            struct pixel_spans *p = &c->picture->spans[y * c->width + x];
+            p->visits++;
+            p->count = block->first[i + 1] - block->first[i];
+            free(p->items);
+            p->items = mem_alloc((p->count + 1) * sizeof *p->items);
+            memcpy(p->items, block->spans + block->first[i], p->count * sizeof *p->items);
+        }
+}
+
+void picture_render(struct picture *out, const struct body *body, const struct rays *rays,
+                    const struct render_settings *settings)
+{
+    size_t n = (size_t)rays->width * (size_t)rays->height;
+    *out = (struct picture){.image = {.width = rays->width, .height = rays->height}};
+    out->image.depth = mem_zalloc(n * sizeof *out->image.depth);
+    out->image.leaf = mem_zalloc(n * sizeof *out->image.leaf);
+    out->image.face = mem_zalloc(n * sizeof *out->image.face);
+    out->spans = mem_zalloc(n * sizeof *out->spans);
+    struct collector c = {out, rays->width};
+    struct cpu_device *device = cpu_device_new();
+    cpu_first_surface(device, body, rays, settings, &out->image, &out->surface_stats);
+    cpu_spans(device, body, rays, settings, collect, &c, &out->span_stats);
+    cpu_device_delete(device);
+}
+
+void picture_free(struct picture *p)
+{
+    for (int i = 0; i < p->image.width * p->image.height; i++)
+        free(p->spans[i].items);
+    free(p->spans);
+    free(p->image.depth);
+    free(p->image.leaf);
+    free(p->image.face);
+    *p = (struct picture){0};
+}
+
+static bool pixel_equal(const struct picture *a, const struct picture *b, int i)
+{
+    if (a->image.leaf[i] != b->image.leaf[i] || a->spans[i].count != b->spans[i].count)
+        return false;
+    if (a->image.leaf[i] != SURFACE_NONE &&
+        (memcmp(&a->image.depth[i], &b->image.depth[i], sizeof(float)) != 0 ||
+         a->image.face[i] != b->image.face[i]))
+        return false;
+    return memcmp(a->spans[i].items, b->spans[i].items, a->spans[i].count * sizeof(struct span)) ==
+           0;
+}
+
+bool picture_equal(const struct picture *a, const struct picture *b, int *x, int *y)
+{
+    for (int i = 0; i < a->image.width * a->image.height; i++)
+        if (!pixel_equal(a, b, i)) {
+            *x = i % a->image.width;
+            *y = i / a->image.width;
+            return false;
+        }
+    return true;
+}

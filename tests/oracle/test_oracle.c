@@ -1,0 +1,334 @@
+// test_oracle.c - the device against the oracle.
+//
+//   test_oracle random [--count N] [--seed N] [--threads N]   random trees, pixel by pixel
+//   test_oracle random --seed N --pixel X Y                   one pixel, with the fewest leaves
+//   test_oracle threads | memory | walks                      the same picture whatever the
+//   settings test_oracle FILE.csg WIDTH HEIGHT                         a file from several sides
+#include "base/mem.h"
+#include "base/parallel.h"
+#include "csg/csg.h"
+#include "report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct options {
+    uint32_t count, threads;
+    uint64_t seed;
+    bool one_seed, one_pixel;
+    int x, y;
+};
+
+struct outcome {
+    uint64_t pixels, hits, verdicts[VERDICTS];
+    uint64_t probed, unstable; // of a sample of all pixels
+    uint64_t open;             // rays of which the device says that a mesh does not close
+    bool aligned;
+    int x, y; // first pixel that is wrong, or unexplained when none is wrong
+    enum verdict worst;
+    const char *reason;
+};
+
+static void compare_picture(struct outcome *out, struct comparison *c, const struct picture *p)
+{
+    for (int y = 0; y < c->rays->height; y++)
+        for (int x = 0; x < c->rays->width; x++) {
+            enum verdict v = compare_pixel(c, p, x, y);
+            out->pixels++;
+            out->hits += c->answer.count > 0;
+            out->verdicts[v]++;
+            if (v > out->worst && v >= VERDICT_UNEXPLAINED) {
+                out->worst = v;
+                out->x = x;
+                out->y = y;
+                out->reason = c->reason;
+            }
+            if (out->pixels % 41 == 0) {
+                out->probed++;
+                out->unstable += compare_unstable(c, x, y);
+            }
+        }
+    out->open += p->surface_stats.open_rays + p->span_stats.open_rays;
+}
+
+static void compare_body(struct outcome *out, const struct body *body, const struct rays *rays,
+                         const struct expr_token *tokens, size_t token_count,
+                         const struct render_settings *settings, double tolerance)
+{
+    struct picture picture;
+    struct oracle oracle;
+    struct oracle_leaf *leaves = subject_leaves(body);
+    picture_render(&picture, body, rays, settings);
+    oracle_init(&oracle, leaves, body->leaf_count, tokens, token_count);
+    struct comparison c = {
+        .oracle = &oracle, .rays = rays, .epsilon = settings->epsilon, .tolerance = tolerance};
+    compare_picture(out, &c, &picture);
+    compare_free(&c);
+    oracle_free(&oracle);
+    picture_free(&picture);
+    free(leaves);
+}
+
+struct job {
+    const struct options *options;
+    struct outcome *outcomes;
+};
+
+static void compare_seed(void *context, uint32_t item, uint32_t worker)
+{
+    (void)worker;
+    const struct job *job = context;
+    struct outcome *out = &job->outcomes[item];
+    struct random_scene scene;
+    struct subject subject;
+    random_scene_make(&scene, job->options->seed + item);
+    subject_make(&subject, &scene);
+    struct render_settings settings = {.epsilon = scene.epsilon, .threads = 1};
+    compare_body(out, &subject.body, &scene.rays, scene.tokens, scene.token_count, &settings, 2e-3);
+    out->aligned = scene.aligned;
+    subject_free(&subject);
+    random_scene_free(&scene);
+}
+
+static void add_outcome(struct outcome *sum, const struct outcome *o)
+{
+    sum->pixels += o->pixels;
+    sum->hits += o->hits;
+    sum->probed += o->probed;
+    sum->unstable += o->unstable;
+    sum->open += o->open;
+    for (int i = 0; i < VERDICTS; i++)
+        sum->verdicts[i] += o->verdicts[i];
+}
+
+static double percent(uint64_t part, uint64_t whole)
+{
+    return whole ? 100.0 * (double)part / (double)whole : 0;
+}
+
+static void print_outcome(const char *name, const struct outcome *o)
+{
+    printf("%s: %llu pixels, %.1f %% hit, %llu forgiven (%.4f %%), %llu unexplained, %llu wrong, "
+           "%.3f %% unstable, %llu open rays\n",
+           name, (unsigned long long)o->pixels, percent(o->hits, o->pixels),
+           (unsigned long long)o->verdicts[VERDICT_FORGIVEN],
+           percent(o->verdicts[VERDICT_FORGIVEN], o->pixels),
+           (unsigned long long)o->verdicts[VERDICT_UNEXPLAINED],
+           (unsigned long long)o->verdicts[VERDICT_WRONG], percent(o->unstable, o->probed),
+           (unsigned long long)o->open);
+}
+
+// Excluded pixels must stay rare, or the comparison would prove little.
+static bool acceptable(const struct outcome *o, bool aligned)
+{
+    return o->verdicts[VERDICT_WRONG] == 0 && o->open == 0 &&
+           percent(o->verdicts[VERDICT_FORGIVEN], o->pixels) < (aligned ? 100 : 0.5) &&
+           percent(o->verdicts[VERDICT_UNEXPLAINED], o->pixels) < (aligned ? 0.5 : 0.001) &&
+           (aligned || percent(o->unstable, o->probed) < 2);
+}
+
+static int run_random(const struct options *options)
+{
+    struct outcome *outcomes = mem_zalloc(options->count * sizeof *outcomes);
+    struct job job = {options, outcomes};
+    parallel_for(options->count, options->threads, compare_seed, &job);
+    struct outcome sum[2] = {{0}, {0}};
+    uint32_t shown = 0, empty = 0;
+    for (uint32_t i = 0; i < options->count; i++) {
+        const struct outcome *o = &outcomes[i];
+        add_outcome(&sum[o->aligned], o);
+        empty += o->hits == 0;
+        bool wrong = o->worst == VERDICT_WRONG || (o->worst == VERDICT_UNEXPLAINED && !o->aligned);
+        if ((wrong || o->open) && shown++ < 30)
+            printf(
+                "seed %llu: %llu wrong, %llu unexplained, %llu open rays, %s: --seed %llu --pixel "
+                "%d %d\n",
+                (unsigned long long)(options->seed + i),
+                (unsigned long long)o->verdicts[VERDICT_WRONG],
+                (unsigned long long)o->verdicts[VERDICT_UNEXPLAINED], (unsigned long long)o->open,
+                o->reason ? o->reason : "", (unsigned long long)(options->seed + i), o->x, o->y);
+    }
+    printf("%u trees from seed %llu, %u of them without a surface, %u with errors\n",
+           options->count, (unsigned long long)options->seed, empty, shown);
+    print_outcome("generic", &sum[0]);
+    print_outcome("pixels on faces seen edge-on", &sum[1]);
+    free(outcomes);
+    return acceptable(&sum[0], false) && acceptable(&sum[1], true) ? 0 : 1;
+}
+
+static int run_pixel(const struct options *options)
+{
+    struct random_scene scene;
+    random_scene_make(&scene, options->seed);
+    struct render_settings settings = {.epsilon = scene.epsilon, .threads = 1};
+    printf("seed %llu, %u leaves, pixel %d %d of %d x %d\n", (unsigned long long)options->seed,
+           scene.leaf_count, options->x, options->y, scene.rays.width, scene.rays.height);
+    report_smallest(stdout, &scene, &settings, options->x, options->y);
+    random_scene_free(&scene);
+    return 0;
+}
+
+// The same view with `times` as many pixels each way.
+static void enlarge(struct rays *r, int times)
+{
+    r->width *= times;
+    r->height *= times;
+    r->step_x = vec3_scale(r->step_x, 1.0 / times);
+    r->step_y = vec3_scale(r->step_y, 1.0 / times);
+}
+
+// Pictures of `count` trees with all settings are bit-identical to those with the first.
+static int run_same(const char *name, const struct render_settings *settings, int setting_count,
+                    uint32_t count, int times)
+{
+    int different = 0;
+    size_t peak = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        struct random_scene scene;
+        struct subject subject;
+        random_scene_make(&scene, i % 8 == 7 ? 399 + 400 * (i / 8) : i);
+        enlarge(&scene.rays, times);
+        subject_make(&subject, &scene);
+        struct picture first = {0}, other;
+        for (int k = 0; k < setting_count; k++) {
+            struct picture *p = k ? &other : &first;
+            struct render_settings s = settings[k];
+            s.epsilon = scene.epsilon;
+            picture_render(p, &subject.body, &scene.rays, &s);
+            int x, y;
+            if (s.memory && p->surface_stats.peak_bytes > s.memory) {
+                printf("tree %u: %zu bytes for a surface of at most %zu\n", i,
+                       p->surface_stats.peak_bytes, s.memory);
+                different++;
+            }
+            if (p->surface_stats.peak_bytes > peak)
+                peak = p->surface_stats.peak_bytes;
+            if (!k)
+                continue;
+            if (!picture_equal(&first, &other, &x, &y)) {
+                printf("tree %u, setting %d: pixel %d %d of %d x %d differs\n", i, k, x, y,
+                       scene.rays.width, scene.rays.height);
+                different++;
+            }
+            picture_free(&other);
+        }
+        picture_free(&first);
+        subject_free(&subject);
+        random_scene_free(&scene);
+    }
+    printf("%s: %u trees, %d differences, at most %zu bytes\n", name, count, different, peak);
+    return different ? 1 : 0;
+}
+
+static struct rays look_at(struct box box, int width, int height, int view)
+{
+    static const struct vec3 from[4] = {{0.5, -0.7, 0.5}, {0, 0, 1}, {-0.3, 0.9, -0.2}, {1, 0, 0}};
+    struct vec3 centre = vec3_scale(vec3_add(box.min, box.max), 0.5);
+    double size = vec3_length(vec3_sub(box.max, box.min)), distance = 2 * size;
+    struct vec3 forward = vec3_scale(vec3_normalized(from[view]), -1);
+    struct vec3 up = fabs(forward.z) > 0.9 ? (struct vec3){0, 1, 0} : (struct vec3){0, 0, 1};
+    struct vec3 right = vec3_normalized(vec3_cross(forward, up));
+    struct vec3 down = vec3_cross(forward, right);
+    struct rays r = {.orthographic = view % 2, .width = width, .height = height};
+    double step = (r.orthographic ? size : 0.5) / (height < width ? height : width);
+    r.step_x = vec3_scale(right, step);
+    r.step_y = vec3_scale(down, step);
+    struct vec3 corner = vec3_add(vec3_scale(r.step_x, -0.5 * (width - 1) + 0.0123),
+                                  vec3_scale(r.step_y, -0.5 * (height - 1) + 0.0321));
+    r.origin = vec3_sub(centre, vec3_scale(forward, distance));
+    r.forward = forward;
+    if (r.orthographic)
+        r.origin = vec3_add(r.origin, corner);
+    else
+        r.forward = vec3_add(r.forward, corner);
+    r.near = 1e-3 * size;
+    r.far = 10 * size;
+    r.reference = distance;
+    return r;
+}
+
+static int run_file(const char *path, int width, int height)
+{
+    struct messages messages = {0};
+    struct csg_tree tree;
+    if (!csg_parse_file(&tree, path, &messages)) {
+        messages_print(&messages, stderr);
+        messages_free(&messages);
+        return 1;
+    }
+    struct model_options options = MODEL_DEFAULTS;
+    struct solid_store *store = solid_store_new();
+    struct model model;
+    model_build(&model, &tree, store, &options, &messages);
+    struct render_settings settings = {.epsilon = model_epsilon(&model, options.epsilon)};
+    struct vec3 size = vec3_sub(model.bounds.max, model.bounds.min);
+    double tolerance = fmax(2e-3, 2e-6 * vec3_length(size));
+    int failed = 0;
+    for (uint32_t b = 0; b < model.body_count; b++)
+        for (int view = 0; view < 4; view++) {
+            const struct body *body = &model.bodies[b];
+            struct rays rays = look_at(model.bounds, width, height, view);
+            struct outcome o = {0};
+            size_t token_count;
+            struct expr_token *tokens = subject_tokens(&body->expr, &token_count);
+            compare_body(&o, body, &rays, tokens, token_count, &settings, tolerance);
+            char name[64];
+            snprintf(name, sizeof name, "body %u view %d", b, view);
+            print_outcome(name, &o);
+            if (o.worst == VERDICT_WRONG)
+                printf("  pixel %d %d: %s\n", o.x, o.y, o.reason);
+            failed += !acceptable(&o, view % 2);
+            free(tokens);
+        }
+    messages_free(&messages);
+    model_free(&model);
+    solid_store_delete(store);
+    csg_free(&tree);
+    return failed ? 1 : 0;
+}
+
+static int parse_options(struct options *o, int argc, char **argv)
+{
+    for (int i = 2; i < argc; i++) {
+        int left = argc - i - 1;
+        if (!strcmp(argv[i], "--count") && left >= 1) {
+            o->count = (uint32_t)strtoul(argv[++i], NULL, 10);
+        } else if (!strcmp(argv[i], "--threads") && left >= 1) {
+            o->threads = (uint32_t)strtoul(argv[++i], NULL, 10);
+        } else if (!strcmp(argv[i], "--seed") && left >= 1) {
+            o->seed = strtoull(argv[++i], NULL, 10);
+            o->one_seed = true;
+        } else if (!strcmp(argv[i], "--pixel") && left >= 2) {
+            o->x = atoi(argv[++i]);
+            o->y = atoi(argv[++i]);
+            o->one_pixel = true;
+        } else {
+            fprintf(stderr, "test_oracle: cannot use '%s'\n", argv[i]);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    static const struct render_settings threads[] = {
+        {.threads = 1}, {.threads = 2}, {.threads = 8}};
+    static const struct render_settings memory[] = {{.threads = 2},
+                                                    {.threads = 2, .memory = 16 << 20}};
+    static const struct render_settings walks[] = {
+        {.walk = WALK_AUTO}, {.walk = WALK_HASH}, {.walk = WALK_ARRAY}};
+    if (argc == 4 && strchr(argv[1], '.'))
+        return run_file(argv[1], atoi(argv[2]), atoi(argv[3]));
+    const char *mode = argc > 1 ? argv[1] : "random";
+    if (!strcmp(mode, "threads"))
+        return run_same(mode, threads, array_count(threads), 40, 8);
+    if (!strcmp(mode, "memory"))
+        return run_same(mode, memory, array_count(memory), 16, 24);
+    if (!strcmp(mode, "walks"))
+        return run_same(mode, walks, array_count(walks), 40, 2);
+    struct options options = {.count = 2000};
+    if (parse_options(&options, argc, argv))
+        return 2;
+    return options.one_pixel ? run_pixel(&options) : run_random(&options);
+}
