@@ -64,21 +64,26 @@ static uint8_t mixed(uint8_t from, uint8_t to, double share)
     return (uint8_t)(from + (to - from) * share + 0.5);
 }
 
-static void clear(struct picture *p, const struct scheme *scheme)
+static void clear_rows(void *context, uint32_t item, uint32_t worker)
 {
-    struct rgb top = scheme->background, bottom = scheme->background_bottom;
+    (void)worker;
+    const struct drawing *d = context;
+    struct picture *p = d->picture;
+    struct rgb top = d->shader->scheme->background, bottom = d->shader->scheme->background_bottom;
     size_t width = (size_t)p->width;
-    for (int y = 0; y < p->height; y++) {
+    int last = (int)(item + 1) * ROWS;
+    for (int y = (int)item * ROWS; y < last && y < p->height; y++) {
         double share = (y + 0.5) / p->height;
         uint8_t *row = p->rgb + 3 * width * (size_t)y;
-        uint8_t colour[3] = {mixed(top.r, bottom.r, share), mixed(top.g, bottom.g, share),
-                             mixed(top.b, bottom.b, share)};
-        for (size_t x = 0; x < width; x++)
-            memcpy(row + 3 * x, colour, 3);
-    }
-    for (size_t i = 0; i < width * (size_t)p->height; i++) {
-        p->depth[i] = INFINITY;
-        p->surface.leaf[i] = SURFACE_NONE;
+        row[0] = mixed(top.r, bottom.r, share);
+        row[1] = mixed(top.g, bottom.g, share);
+        row[2] = mixed(top.b, bottom.b, share);
+        for (size_t done = 1; done < width; done *= 2) // doubles what is there
+            memcpy(row + 3 * done, row, 3 * (done < width - done ? done : width - done));
+        for (size_t i = width * (size_t)y; i < width * ((size_t)y + 1); i++) {
+            p->depth[i] = INFINITY;
+            p->surface.leaf[i] = SURFACE_NONE;
+        }
     }
 }
 
@@ -227,7 +232,9 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
 {
     *stats = (struct render_stats){0};
     reserve(p, rays->width, rays->height);
-    clear(p, shader->scheme);
+    uint32_t items = ((uint32_t)p->height + ROWS - 1) / ROWS;
+    parallel_for(items, settings->threads, clear_rows,
+                 &(struct drawing){.picture = p, .shader = shader});
     for (uint32_t b = 0; b < shader->model->body_count; b++) {
         const struct body *body = &shader->model->bodies[b];
         bool main = body->kind == BODY_MAIN;
@@ -242,7 +249,6 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
         struct render_stats one = {0};
         if (d.shading->opaque) {
             cpu_first_surface(device, body, rays, settings, d.surface, &one);
-            uint32_t items = ((uint32_t)p->height + ROWS - 1) / ROWS;
             parallel_for(items, settings->threads, shade_rows, &d);
         } else {
             cpu_spans(device, body, rays, settings, blend_block, &d, &one);
