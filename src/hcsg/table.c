@@ -81,8 +81,8 @@ bool table_insert(struct table *t, uint64_t key, bool solid, const unsigned char
     struct swap swaps[SWAPS_MOST];
     uint32_t swap_count = 0;
     struct item item = {key | (uint64_t)solid << TABLE_SOLID_SHIFT, set};
-    uint32_t age = 1, h = table_hash(key);
-    for (; age <= TABLE_AGE_MOST; age++, h += TABLE_STEP) {
+    uint32_t age = 1, h = table_hash(key), step = table_step(h);
+    for (; age <= TABLE_AGE_MOST; age++, h += step) {
         uint32_t place = h >> t->shift;
         uint64_t there = get(t, place);
         uint32_t age_there = table_age(there);
@@ -100,7 +100,9 @@ bool table_insert(struct table *t, uint64_t key, bool solid, const unsigned char
         swaps[swap_count++] = (struct swap){place, evicted, age_there};
         item = evicted;
         age = age_there;
-        h = table_hash(item.record) + (age - 1) * TABLE_STEP;
+        h = table_hash(item.record);
+        step = table_step(h);
+        h += (age - 1) * step;
     }
     while (swap_count-- > 0)
         place_item(t, swaps[swap_count].place, swaps[swap_count].before, swaps[swap_count].age);
@@ -143,9 +145,9 @@ struct table *table_add(struct table *t, uint64_t key, bool solid, const unsigne
 
 uint32_t table_place(const struct table *t, uint64_t key)
 {
-    uint32_t h = table_hash(key);
+    uint32_t h = table_hash(key), step = table_step(h);
     while (!table_matches(get(t, h >> t->shift), key))
-        h += TABLE_STEP;
+        h += step;
     return h >> t->shift;
 }
 

@@ -8,9 +8,9 @@
 //            bits 23-26  age: probe at which this record is found, counted from 1; 0: no record
 //            bits 27-30  max age: probes needed for any key whose first place is here
 //            bit  31     solid
-// Probe i (from 0) of a key is ((p ^ p >> 15) * TABLE_MULTIPLIER + i * TABLE_STEP) >> shift in
-// 32-bit arithmetic, p being the primary key. The secondary key takes no part, so it can be renewed
-// in place.
+// Probe i (from 0) of a key is (h + i * (TABLE_STEP + (h << 12 >> 3))) >> shift in 32-bit
+// arithmetic, where h = (p ^ p >> 15) * TABLE_MULTIPLIER and p is the primary key. The secondary
+// key takes no part, so it can be renewed in place.
 //
 // Lookups need no lock: records are single atomic words, so a reader sees a record whole or, while
 // it moves, not at all. Writers need one.
@@ -43,10 +43,15 @@ struct table {
     alignas(64) _Atomic uint64_t records[];
 };
 
-static inline uint32_t table_hash(uint64_t key) // of probe 0; each further one adds TABLE_STEP
+static inline uint32_t table_hash(uint64_t key) // of probe 0
 {
     uint32_t p = (uint32_t)key;
     return (p ^ p >> 15) * TABLE_MULTIPLIER;
+}
+
+static inline uint32_t table_step(uint32_t hash) // what each further probe adds
+{
+    return TABLE_STEP + (hash << 12 >> 3);
 }
 
 static inline uint32_t table_age(uint64_t record)
@@ -71,8 +76,9 @@ static inline uint64_t table_find(const struct table *t, uint64_t key)
     uint64_t record = atomic_load_explicit(&t->records[h >> t->shift], memory_order_relaxed);
     if (table_matches(record, key))
         return record;
+    uint32_t step = table_step(h);
     for (uint32_t probes = table_max_age(record); probes > 1; probes--) {
-        h += TABLE_STEP;
+        h += step;
         record = atomic_load_explicit(&t->records[h >> t->shift], memory_order_relaxed);
         if (table_matches(record, key))
             return record;
@@ -99,7 +105,7 @@ bool table_insert(struct table *t, uint64_t key, bool solid, const unsigned char
 struct table *table_add(struct table *t, uint64_t key, bool solid, const unsigned char *set,
                         bool *stored);
 
-// The place of a key that is there.
+// The place of a key that is there: for it only, the search has no other end.
 uint32_t table_place(const struct table *t, uint64_t key);
 
 // Gives the record in a place another secondary key.
