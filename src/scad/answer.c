@@ -6,6 +6,8 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 enum { LOG_KEPT = 1 << 18, RULE_LIMIT = 1 << 24 };
 
@@ -80,22 +82,54 @@ static unsigned long find_place(const char *line, size_t length, size_t *at, siz
     return strtoul(comma + sizeof comma_line - 1, NULL, 10);
 }
 
-// openscad names files relative to the folder of the main file.
-static char *file_of_place(const char *path, const char *name, size_t length)
+static size_t shown(size_t length)
 {
-    char *folder = file_folder(path), *own = mem_alloc(length + 1);
-    memcpy(own, name, length);
-    own[length] = 0;
-    char *joined = file_join(folder, own);
-    free(folder);
-    free(own);
-    return joined;
+    enum { SHOWN = 600 };
+    return length < SHOWN ? length : SHOWN;
 }
 
-void scad_log_error(const char *log, const char *path, struct error *err)
+static bool ends_with(const char *path, const char *name)
 {
-    const char *first = NULL, *last = NULL;
-    size_t length, first_length = 0, last_length = 0;
+    size_t length = strlen(path), n = strlen(name);
+    return n <= length && strcmp(path + length - n, name) == 0 &&
+           (n == length || path[length - n - 1] == '/');
+}
+
+static bool same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+// openscad names a file relative to the working folder (syntax errors), to its own folder
+// (evaluation) or to the main file's. NULL when there is no such file.
+static char *find_file(const struct scad_result *r, const char *name, size_t length)
+{
+    char *own = mem_alloc(length + 1), *found = NULL;
+    memcpy(own, name, length);
+    own[length] = 0;
+    for (uint32_t i = 0; i < r->file_count && !found; i++)
+        if (ends_with(r->files[i], own) || same_file(r->files[i], own))
+            found = mem_strdup(r->files[i]);
+    if (!found && access(own, F_OK) == 0)
+        found = mem_strdup(own);
+    if (!found) {
+        char *folder = file_folder(r->files[0]);
+        found = file_join(folder, own);
+        free(folder);
+        if (access(found, F_OK) != 0) {
+            free(found);
+            found = NULL;
+        }
+    }
+    free(own);
+    return found;
+}
+
+void scad_error(const struct scad_result *r, struct error *err)
+{
+    const char *first = NULL, *last = "failed without a message", *log = r->log;
+    size_t length, first_length = 0, last_length = strlen(last);
     for (const char *line; (line = next_line(&log, &length));) {
         if (!first && begins(line, length, "ERROR:")) {
             first = line;
@@ -107,23 +141,20 @@ void scad_log_error(const char *log, const char *path, struct error *err)
         }
     }
     if (!first) {
-        error_set(err, "%s: openscad: %.*s", path, (int)(last_length < 500 ? last_length : 500),
-                  last ? last : "failed without a message");
+        error_set(err, "%s: openscad: %.*s", r->files[0], (int)shown(last_length), last);
         return;
     }
     size_t skip = strlen("ERROR:");
     while (skip < first_length && first[skip] == ' ')
         skip++;
-    size_t at = first_length, name = 0, name_length = 0;
+    size_t at, name, name_length;
     unsigned long number = find_place(first, first_length, &at, &name, &name_length);
-    size_t shown = at - skip < 500 ? at - skip : 500;
-    if (!number) {
-        error_set(err, "%s: openscad: %.*s", path, (int)shown, first + skip);
-        return;
-    }
-    char *file = file_of_place(path, first + name, name_length);
-    error_at(err, (struct place){.file = file, .line = (uint32_t)number}, "%.*s", (int)shown,
-             first + skip);
+    char *file = number ? find_file(r, first + name, name_length) : NULL;
+    if (file)
+        error_at(err, (struct place){.file = file, .line = (uint32_t)number}, "%.*s",
+                 (int)shown(at - skip), first + skip);
+    else
+        error_set(err, "%s: %.*s", r->files[0], (int)shown(first_length - skip), first + skip);
     free(file);
 }
 
@@ -177,7 +208,10 @@ void scad_read_files(const char *rule_path, const char *path, struct scad_result
     const char *rest = out->log;
     for (const char *line; (line = next_line(&rest, &length));) {
         size_t at, name, name_length;
-        if (begins(line, length, "ERROR:") && find_place(line, length, &at, &name, &name_length))
-            add_file(out, &capacity, file_of_place(path, line + name, name_length));
+        if (begins(line, length, "ERROR:") && find_place(line, length, &at, &name, &name_length)) {
+            char *file = find_file(out, line + name, name_length);
+            if (file)
+                add_file(out, &capacity, file);
+        }
     }
 }

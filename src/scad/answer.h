@@ -8,11 +8,12 @@ struct scad_log {
     size_t size;
 };
 void scad_log_add(struct scad_log *log, const char *data, size_t size);
-// Says in one line what went wrong, with the place in front when openscad named one.
-void scad_log_error(const char *log, const char *path, struct error *err);
+
 // Whether openscad reported an error, which does not show in its exit code.
 bool scad_log_has_error(const char *log);
 
 // Reads the rule that `openscad -d` wrote; `path` comes first. Files that the messages name are
 // taken in as well: without a rule (after a syntax error) they are all that is known.
 void scad_read_files(const char *rule_path, const char *path, struct scad_result *out);
+// Says in one line what the messages say, with the place in front when they name one.
+void scad_error(const struct scad_result *r, struct error *err);

@@ -89,7 +89,7 @@ static bool take_result(struct scad_job *job, struct scad_result *out, struct er
         return false;
     }
     if (job->status != 0) {
-        scad_log_error(out->log, job->path, err);
+        scad_error(out, err);
         return false;
     }
     if (!file_read(job->text_path, TEXT_LIMIT, &out->text, &out->size, NULL)) {
@@ -97,7 +97,7 @@ static bool take_result(struct scad_job *job, struct scad_result *out, struct er
         return false;
     }
     if (is_blank(out->text, out->size) && scad_log_has_error(out->log)) {
-        scad_log_error(out->log, job->path, err);
+        scad_error(out, err);
         free(out->text);
         out->text = NULL;
         return false;
