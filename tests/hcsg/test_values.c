@@ -42,7 +42,7 @@ static void every_bit_is_random(void **state)
     for (unsigned bit = 0; bit < VALUE_BITS; bit++) {
         uint32_t ones = 0;
         for (uint32_t i = 0; i < N; i++)
-            ones += classes[i].value >> bit & 1;
+            ones += (uint32_t)(classes[i].value >> bit) & 1;
         assert_in_range(ones, N / 2 - 300, N / 2 + 300); // six standard deviations
     }
     free(classes);
