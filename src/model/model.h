@@ -43,6 +43,7 @@ struct model {
     struct box bounds; // of the intersected leaves of all bodies, for --viewall as OpenSCAD does it
     struct model_stats stats;
     struct solid_store *store;
+    char *file; // its name in the places of leaves
 };
 
 struct model_options {

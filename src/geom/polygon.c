@@ -1,0 +1,228 @@
+// polygon.c - cutting arbitrary polygons in space into triangles, with GLU's tessellator.
+#include "geom/polygon.h"
+
+#include <GL/glu.h>
+#include <stdlib.h>
+
+struct polygon_cutter {
+    GLUtesselator *tess;
+    struct mesh_builder *mesh; // of the polygon at work
+    uint32_t *corners;         // its corners without repetitions
+    uint32_t corner_count, corner_room;
+    uint32_t (*triangles)[3]; // its result
+    uint32_t triangle_count, triangle_room;
+    uint32_t pending[3], pending_count;
+    bool failed;
+};
+
+// Corner numbers travel through GLU as pointers.
+static void *number_in(uint32_t i)
+{
+    return (void *)(uintptr_t)i;
+}
+
+static void GLAPIENTRY on_begin(GLenum type, void *user)
+{
+    struct polygon_cutter *c = user;
+    c->pending_count = 0;
+    c->failed |= type != GL_TRIANGLES;
+}
+
+static void GLAPIENTRY on_vertex(void *vertex, void *user)
+{
+    struct polygon_cutter *c = user;
+    c->pending[c->pending_count++] = (uint32_t)(uintptr_t)vertex;
+    if (c->pending_count < 3)
+        return;
+    c->pending_count = 0;
+    array_reserve(&c->triangles, &c->triangle_room, (size_t)c->triangle_count + 1);
+    for (int i = 0; i < 3; i++)
+        c->triangles[c->triangle_count][i] = c->pending[i];
+    c->triangle_count++;
+}
+
+// Asked for so that GLU gives single triangles, no strips and fans.
+static void GLAPIENTRY on_edge_flag(GLboolean flag, void *user)
+{
+    (void)flag;
+    (void)user;
+}
+
+static void GLAPIENTRY on_combine(GLdouble at[3], void *vertices[4], GLfloat weight[4], void **out,
+                                  void *user)
+{
+    (void)vertices;
+    (void)weight;
+    struct polygon_cutter *c = user;
+    *out = number_in(mesh_add_vertex(c->mesh, (struct vec3){at[0], at[1], at[2]}));
+}
+
+static void GLAPIENTRY on_error(GLenum code, void *user)
+{
+    (void)code;
+    struct polygon_cutter *c = user;
+    c->failed = true;
+}
+
+struct polygon_cutter *polygon_cutter_new(void)
+{
+    struct polygon_cutter *c = mem_zalloc(sizeof *c);
+    c->tess = gluNewTess();
+    if (!c->tess)
+        return c; // out of memory: polygon_cut then refuses
+    gluTessProperty(c->tess, GLU_TESS_WINDING_RULE, GLU_TESS_WINDING_ODD);
+    gluTessCallback(c->tess, GLU_TESS_BEGIN_DATA, (_GLUfuncptr)on_begin);
+    gluTessCallback(c->tess, GLU_TESS_VERTEX_DATA, (_GLUfuncptr)on_vertex);
+    gluTessCallback(c->tess, GLU_TESS_EDGE_FLAG_DATA, (_GLUfuncptr)on_edge_flag);
+    gluTessCallback(c->tess, GLU_TESS_COMBINE_DATA, (_GLUfuncptr)on_combine);
+    gluTessCallback(c->tess, GLU_TESS_ERROR_DATA, (_GLUfuncptr)on_error);
+    return c;
+}
+
+void polygon_cutter_delete(struct polygon_cutter *c)
+{
+    if (!c)
+        return;
+    if (c->tess)
+        gluDeleteTess(c->tess);
+    free(c->corners);
+    free(c->triangles);
+    free(c);
+}
+
+static bool same_place(struct vec3 a, struct vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static void collect_corners(struct polygon_cutter *c, const uint32_t *corners, uint32_t count)
+{
+    const struct vec3 *v = c->mesh->mesh.vertices;
+    array_reserve(&c->corners, &c->corner_room, count);
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (!n || !same_place(v[corners[i]], v[c->corners[n - 1]]))
+            c->corners[n++] = corners[i];
+    while (n > 1 && same_place(v[c->corners[0]], v[c->corners[n - 1]]))
+        n--;
+    c->corner_count = n;
+}
+
+static struct vec3 corner(const struct polygon_cutter *c, uint32_t i)
+{
+    return c->mesh->mesh.vertices[c->corners[i]];
+}
+
+// Newell's normal, not normalised: twice the area in the plane that fits best.
+static struct vec3 fitted_normal(const struct polygon_cutter *c)
+{
+    struct vec3 o = corner(c, 0), sum = {0};
+    for (uint32_t i = 2; i < c->corner_count; i++)
+        sum = vec3_add(sum, vec3_cross(vec3_sub(corner(c, i - 1), o), vec3_sub(corner(c, i), o)));
+    return sum;
+}
+
+// Exported numbers have six digits: what was flat arrives bent by up to 1e-5 of its coordinates.
+static bool is_flat(const struct polygon_cutter *c, struct vec3 unit_normal)
+{
+    double low = INFINITY, high = -INFINITY, largest = 0;
+    for (uint32_t i = 0; i < c->corner_count; i++) {
+        struct vec3 p = corner(c, i);
+        double d = vec3_dot(unit_normal, p);
+        low = fmin(low, d);
+        high = fmax(high, d);
+        largest = fmax(largest, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
+    }
+    return high - low <= 1e-5 * largest;
+}
+
+static double angle_cosine(struct vec3 at, struct vec3 a, struct vec3 b)
+{
+    return vec3_dot(vec3_normalized(vec3_sub(a, at)), vec3_normalized(vec3_sub(b, at)));
+}
+
+// A four-sided polygon that looks convex along the normal is cut along its Delaunay diagonal, which
+// decides the shape when it is bent. False: it is not convex.
+static bool cut_quad(struct polygon_cutter *c, struct vec3 normal)
+{
+    struct vec3 p[4];
+    for (uint32_t i = 0; i < 4; i++)
+        p[i] = corner(c, i);
+    for (uint32_t i = 0; i < 4; i++) {
+        struct vec3 in = vec3_sub(p[i], p[(i + 3) % 4]), out = vec3_sub(p[(i + 1) % 4], p[i]);
+        if (!(vec3_dot(normal, vec3_cross(in, out)) > 0))
+            return false;
+    }
+    // The angles opposite of diagonal 0-2 exceed 180 degrees: 1-3 is the better one.
+    bool other = acos(fmax(-1, fmin(1, angle_cosine(p[1], p[0], p[2])))) +
+                     acos(fmax(-1, fmin(1, angle_cosine(p[3], p[2], p[0])))) >
+                 M_PI + 1e-9;
+    uint32_t first = other ? 1 : 0;
+    array_reserve(&c->triangles, &c->triangle_room, 2);
+    for (uint32_t t = 0; t < 2; t++) {
+        c->triangles[t][0] = c->corners[first];
+        c->triangles[t][1] = c->corners[first + 1 + t];
+        c->triangles[t][2] = c->corners[(first + 2 + t) % 4];
+    }
+    c->triangle_count = 2;
+    return true;
+}
+
+static void cut_fan(struct polygon_cutter *c)
+{
+    array_reserve(&c->triangles, &c->triangle_room, c->corner_count);
+    for (uint32_t i = 2; i < c->corner_count; i++) {
+        uint32_t *t = c->triangles[c->triangle_count++];
+        t[0] = c->corners[0];
+        t[1] = c->corners[i - 1];
+        t[2] = c->corners[i];
+    }
+}
+
+static void cut_any(struct polygon_cutter *c, struct vec3 unit_normal)
+{
+    if (!c->tess) {
+        c->failed = true;
+        return;
+    }
+    gluTessNormal(c->tess, unit_normal.x, unit_normal.y, unit_normal.z);
+    gluTessBeginPolygon(c->tess, c);
+    gluTessBeginContour(c->tess);
+    for (uint32_t i = 0; i < c->corner_count; i++) {
+        struct vec3 p = corner(c, i);
+        GLdouble at[3] = {p.x, p.y, p.z};
+        gluTessVertex(c->tess, at, number_in(c->corners[i]));
+    }
+    gluTessEndContour(c->tess);
+    gluTessEndPolygon(c->tess);
+}
+
+bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_t *corners,
+                 uint32_t count)
+{
+    c->mesh = b;
+    c->triangle_count = 0;
+    c->failed = false;
+    collect_corners(c, corners, count);
+    if (c->corner_count < 3)
+        return false;
+
+    struct vec3 normal = vec3_normalized(fitted_normal(c));
+    bool area = vec3_dot(normal, normal) > 0.5; // false also for NaN
+    // Polygons without area are kept as they are: they close the seams between their neighbours.
+    if (c->corner_count == 3 || !area)
+        cut_fan(c);
+    else if (c->corner_count > 4 || !cut_quad(c, normal))
+        cut_any(c, normal);
+    if (c->failed || !c->triangle_count)
+        return false;
+
+    bool flat = !area || is_flat(c, normal);
+    uint32_t face = 0;
+    for (uint32_t t = 0; t < c->triangle_count; t++) {
+        if (t == 0 || !flat)
+            face = mesh_add_face(b);
+        mesh_add_triangle(b, c->triangles[t][0], c->triangles[t][1], c->triangles[t][2], face);
+    }
+    return true;
+}

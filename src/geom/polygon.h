@@ -1,0 +1,15 @@
+// polygon.h - cutting arbitrary polygons in space into triangles.
+#pragma once
+#include "geom/mesh.h"
+
+struct polygon_cutter; // working memory that serves many polygons
+
+struct polygon_cutter *polygon_cutter_new(void);
+void polygon_cutter_delete(struct polygon_cutter *c); // accepts NULL
+
+// Adds the polygon over vertices of `b` (counter-clockwise from outside) as triangles. It may be
+// concave, cross itself (odd winding counts as inside; crossings become new vertices) and be bent a
+// little. A flat polygon becomes one face, a bent one a face per triangle. Returns false, adding
+// nothing, when fewer than three different corners are left or it cannot be cut.
+bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_t *corners,
+                 uint32_t count);

@@ -1,0 +1,26 @@
+// primitives.h - cube, sphere and cylinder cut into faces exactly as OpenSCAD does it.
+#pragma once
+#include "geom/solid.h"
+
+struct detail { // $fn, $fa, $fs
+    double fn, fa, fs;
+};
+#define DETAIL_DEFAULT ((struct detail){0, 12, 2})
+
+// Above these numbers of corners the faces are smaller than anything that could be shown.
+enum { SPHERE_FRAGMENTS_MAX = 2000, CIRCLE_FRAGMENTS_MAX = 100000 };
+
+// Corners of a full circle of radius r; UINT32_MAX stands for everything above.
+uint32_t circle_fragments(double r, struct detail detail);
+
+// Sine and cosine of an angle in degrees, exact at multiples of 30 and 45.
+double sin_degrees(double x);
+double cos_degrees(double x);
+
+// The cube from (0, 0, 0) to (1, 1, 1).
+void primitive_cube(struct mesh *out);
+// The sphere of radius 1 with `n` corners around. It has flat caps, no poles, so it is lower
+// than 2.
+void primitive_sphere(struct mesh *out, uint32_t n);
+// A cylinder or cone from z = 0, radius r1, to z = 1, radius r2. At most one radius may be 0.
+void primitive_cylinder(struct mesh *out, uint32_t n, double r1, double r2);

@@ -1,0 +1,175 @@
+// body.c - from operations between placed shapes to a body that can be drawn.
+#include "model/builder.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// Where a term stands. SUBTRACTED: under an odd number of subtractions. PALE: as it counts for the
+// colour of faces; below render() it no longer changes. APART: in the rendered shape of a
+// subtracted object.
+enum { STANDS_SUBTRACTED = 1, STANDS_PALE = 2, STANDS_RENDERED = 4, STANDS_APART = 8 };
+
+struct todo {
+    uint32_t term;  // TERM_NONE: the operands are done, put the operation
+    uint32_t count; // of operands
+    uint8_t op, stands;
+};
+
+struct emitter {
+    const struct builder *b;
+    struct body *body;
+    uint32_t leaf_room;
+    bool *intersected; // per leaf
+    uint32_t intersected_room;
+    struct expr_token *tokens;
+    uint32_t token_count, token_room;
+    struct todo *todo;
+    uint32_t todo_count, todo_room;
+};
+
+static void put_token(struct emitter *e, enum expr_op op, uint32_t arg)
+{
+    array_reserve(&e->tokens, &e->token_room, (size_t)e->token_count + 1);
+    e->tokens[e->token_count++] = (struct expr_token){op, arg};
+}
+
+static void put_todo(struct emitter *e, struct todo t)
+{
+    array_reserve(&e->todo, &e->todo_room, (size_t)e->todo_count + 1);
+    e->todo[e->todo_count++] = t;
+}
+
+static void put_leaf(struct emitter *e, const struct placed *p, uint8_t stands)
+{
+    struct leaf leaf = {.solid = p->solid,
+                        .to_world = p->to_world,
+                        .subtracted = stands & STANDS_PALE,
+                        .place = {e->b->file, p->line, p->column}};
+    if (!p->solid || !affine_inverse(&leaf.to_world, &leaf.to_local)) {
+        put_token(e, EXPR_UNION, 0);
+        return;
+    }
+    leaf.mirrored = affine_determinant(&leaf.to_world) < 0;
+    leaf.box = box_transformed(p->solid->bounds, &leaf.to_world);
+    memcpy(leaf.colour, p->colour, sizeof leaf.colour);
+    store_hold(e->b->store, p->solid);
+
+    struct body *body = e->body;
+    size_t needed = (size_t)body->leaf_count + 1;
+    array_reserve(&body->leaves, &e->leaf_room, needed);
+    array_reserve(&e->intersected, &e->intersected_room, needed);
+    body->leaves[body->leaf_count] = leaf;
+    e->intersected[body->leaf_count] = !(stands & (STANDS_SUBTRACTED | STANDS_APART));
+    put_token(e, EXPR_LEAF, body->leaf_count++);
+}
+
+static uint8_t stands_as_subtrahend(uint8_t stands)
+{
+    return stands ^
+           (stands & STANDS_RENDERED ? STANDS_SUBTRACTED : STANDS_SUBTRACTED | STANDS_PALE);
+}
+
+static void put_term(struct emitter *e, struct todo now)
+{
+    const struct scene *s = &e->b->scene;
+    const struct term *t = &s->terms[now.term];
+    uint8_t stands = now.stands;
+    if (t->rendered && !(stands & STANDS_RENDERED))
+        stands |= stands & STANDS_SUBTRACTED ? STANDS_RENDERED | STANDS_APART : STANDS_RENDERED;
+    if (t->op == TERM_LEAF) {
+        put_leaf(e, &s->placed[t->left], stands);
+        return;
+    }
+    // A chain of one operation down the left operands is one operation on many.
+    enum term_op op = t->op;
+    uint8_t right = op == TERM_DIFFERENCE ? stands_as_subtrahend(stands) : stands;
+    uint32_t close = e->todo_count, count = 1, left;
+    put_todo(e, (struct todo){.term = TERM_NONE, .op = (uint8_t)op});
+    for (;; t = &s->terms[left]) {
+        put_todo(e, (struct todo){.term = t->right, .stands = right});
+        count++;
+        left = t->left;
+        if (s->terms[left].op != op || s->terms[left].rendered)
+            break;
+    }
+    put_todo(e, (struct todo){.term = left, .stands = stands});
+    e->todo[close].count = count;
+}
+
+static void emit(struct emitter *e, uint32_t term)
+{
+    static const enum expr_op op_of[] = {[TERM_UNION] = EXPR_UNION,
+                                         [TERM_INTERSECTION] = EXPR_INTERSECTION,
+                                         [TERM_DIFFERENCE] = EXPR_DIFFERENCE};
+    put_todo(e, (struct todo){.term = term});
+    while (e->todo_count) {
+        struct todo now = e->todo[--e->todo_count];
+        if (now.term == TERM_NONE)
+            put_token(e, op_of[now.op], now.count);
+        else if (now.term == TERM_EMPTY)
+            put_token(e, EXPR_UNION, 0);
+        else
+            put_term(e, now);
+    }
+}
+
+// Regions of interest, and the expression without the leaves that have none.
+static void restrict_leaves(struct body *body, const bool *intersected, bool wanted,
+                            struct box *bounds)
+{
+    uint32_t count = body->leaf_count;
+    struct box *boxes = mem_alloc(count * sizeof *boxes);
+    bool *keep = mem_alloc(count);
+    body->roi = mem_alloc(count * sizeof *body->roi);
+    for (uint32_t i = 0; i < count; i++)
+        boxes[i] = body->leaves[i].box;
+    roi_build(body->roi, &body->expr, boxes);
+    for (uint32_t i = 0; i < count; i++) {
+        keep[i] = !box_is_empty(body->roi[i]);
+        if (keep[i] && intersected[i] && body->expr.leaf_node[i] != EXPR_NONE)
+            *bounds = box_union(*bounds, boxes[i]);
+    }
+    if (wanted) {
+        struct expr all = body->expr;
+        expr_without(&body->expr, &all, keep);
+        expr_free(&all);
+    } else
+        memcpy(body->roi, boxes, count * sizeof *boxes);
+    free(boxes);
+    free(keep);
+}
+
+void body_build(struct body *out, enum body_kind kind, const struct builder *b,
+                const struct model_options *options, const uint32_t *terms, uint32_t term_count,
+                struct box *intersected)
+{
+    *out = (struct body){.kind = kind};
+    struct emitter e = {.b = b, .body = out};
+    for (uint32_t i = 0; i < term_count; i++)
+        emit(&e, terms[i]);
+    put_token(&e, EXPR_UNION, term_count);
+    expr_build(&out->expr, e.tokens, e.token_count, out->leaf_count);
+    restrict_leaves(out, e.intersected, options->roi, intersected);
+
+    bool *convex = mem_alloc(out->leaf_count);
+    for (uint32_t i = 0; i < out->leaf_count; i++)
+        convex[i] = out->leaves[i].solid->convex;
+    sharing_build(&out->sharing, &out->expr, convex, options->share);
+    out->table = discovery_new(&out->expr, &out->sharing);
+    free(convex);
+    free(e.tokens);
+    free(e.todo);
+    free(e.intersected);
+}
+
+void body_free(struct body *body)
+{
+    discovery_delete(body->table);
+    sharing_free(&body->sharing);
+    expr_free(&body->expr);
+    for (uint32_t i = 0; i < body->leaf_count; i++)
+        store_release(body->leaves[i].solid);
+    free(body->leaves);
+    free(body->roi);
+    *body = (struct body){0};
+}

@@ -1,0 +1,105 @@
+// model.c - what there is to draw: solids, placed leaves and expressions over them.
+#include "base/file.h"
+#include "model/builder.h"
+#include "model/sheet.h"
+
+#include <stdlib.h>
+
+// Each marked object is drawn on its own; past this number of a kind the rest shares one body.
+enum { BODIES_MAX = 64 };
+
+static double default_epsilon(struct box bounds)
+{
+    double extent = 0;
+    if (!box_is_empty(bounds))
+        extent = fmax(bounds.max.x - bounds.min.x,
+                      fmax(bounds.max.y - bounds.min.y, bounds.max.z - bounds.min.z));
+    return fmax(1e-3, 2e-6 * extent);
+}
+
+double model_epsilon(const struct model *m, double asked)
+{
+    return asked >= 0 ? asked : default_epsilon(m->bounds);
+}
+
+// Shapes pressed flat become sheets that the filter of thin intervals lets stand.
+static void thicken_sheets(struct scene *s, double epsilon)
+{
+    struct box all = BOX_EMPTY;
+    for (uint32_t i = 0; i < s->placed_count; i++)
+        all = box_union(all, box_transformed(s->placed[i].solid->bounds, &s->placed[i].to_world));
+    double thickness = 4 * (epsilon > 0 ? epsilon : default_epsilon(all));
+    for (uint32_t i = 0; i < s->placed_count; i++) {
+        struct placed *p = &s->placed[i];
+        if (sheet_is_flat(&p->to_world) &&
+            !sheet_thicken(&p->to_world, p->solid->bounds, thickness))
+            p->solid = NULL;
+    }
+}
+
+static void add_bodies(struct model *m, enum body_kind kind, const struct builder *b,
+                       const struct model_options *options, const struct term_list *terms)
+{
+    for (uint32_t i = 0, alone = 0; i < terms->count; alone++) {
+        uint32_t taken = alone + 1 < BODIES_MAX ? 1 : terms->count - i;
+        body_build(&m->bodies[m->body_count++], kind, b, options, &terms->items[i], taken,
+                   &m->bounds);
+        i += taken;
+    }
+}
+
+static void count_stats(struct model *m, const struct builder *b)
+{
+    uint64_t triangles = 0;
+    for (uint32_t i = 0; i < m->body_count; i++) {
+        const struct body *body = &m->bodies[i];
+        m->stats.leaves += body->leaf_count;
+        for (uint32_t l = 0; l < body->leaf_count; l++)
+            triangles += body->leaves[l].solid->mesh.triangle_count;
+    }
+    m->stats.triangles = triangles < UINT32_MAX ? (uint32_t)triangles : UINT32_MAX;
+    m->stats.nodes = b->tree->node_count;
+    m->stats.solids = store_counted(b->store);
+    m->stats.unsupported = b->unsupported;
+}
+
+void model_build(struct model *out, const struct csg_tree *tree, struct solid_store *store,
+                 const struct model_options *options, struct messages *messages)
+{
+    const char *name = tree->file ? tree->file : "-";
+    *out = (struct model){.bounds = BOX_EMPTY, .store = store, .file = mem_strdup(name)};
+    struct builder b = {.tree = tree,
+                        .file = out->file,
+                        .folder = file_folder(name),
+                        .store = store,
+                        .messages = messages};
+    store_join(store);
+    store_count_from(store);
+    builder_walk(&b);
+    thicken_sheets(&b.scene, options->epsilon);
+
+    // Tables borrow from their bodies, so the array must not move once it is being filled.
+    size_t most = 1 + 2 * BODIES_MAX;
+    out->bodies = mem_zalloc(most * sizeof *out->bodies);
+    struct term_list main_term = {.items = &b.scene.root, .count = 1};
+    add_bodies(out, BODY_MAIN, &b, options, &main_term);
+    add_bodies(out, BODY_BACKGROUND, &b, options, &b.scene.backgrounds);
+    add_bodies(out, BODY_HIGHLIGHT, &b, options, &b.scene.highlights);
+    count_stats(out, &b);
+
+    store_sweep(store);
+    scene_free(&b.scene);
+    polygon_cutter_delete(b.cutter);
+    free(b.folder);
+}
+
+void model_free(struct model *m)
+{
+    for (uint32_t i = 0; i < m->body_count; i++)
+        body_free(&m->bodies[i]);
+    free(m->bodies);
+    free(m->file);
+    if (m->store)
+        store_leave(m->store);
+    *m = (struct model){0};
+}

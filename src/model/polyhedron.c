@@ -1,0 +1,127 @@
+// polyhedron.c - meshes written out in the file.
+#include "base/hash.h"
+#include "model/nodes.h"
+
+#include <stdlib.h>
+
+const struct parameters parameters_polyhedron = {{"points", "faces", "convexity", "triangles"}, 3};
+
+enum { KEY_POLYHEDRON = 0x706f6c79 };
+
+// Faces one after another: `ends[i]` is where the corners of face i end.
+struct face_list {
+    uint32_t *corners, *ends;
+    uint32_t corner_count, corner_room, count, end_room;
+};
+
+static bool read_points(struct builder *b, const struct args *args, struct mesh_builder *m)
+{
+    const struct csg_value *points = args->values[0];
+    if (!value_is_vector(points)) {
+        builder_warn(b, args->node, "polyhedron() needs a vector of points; left out");
+        return false;
+    }
+    for (uint32_t i = 0; i < points->count; i++) {
+        struct csg_value hold;
+        double p[3] = {0};
+        if (!value_numbers(value_item(points, i, &hold), p, 2, 3) || !isfinite(p[0]) ||
+            !isfinite(p[1]) || !isfinite(p[2])) {
+            messages_add(b->messages, MESSAGE_ERROR, builder_place(b, args->node),
+                         "polyhedron() point %u is not 2 or 3 finite numbers; it is at the origin",
+                         i);
+            p[0] = p[1] = p[2] = 0;
+        }
+        mesh_add_vertex(m, (struct vec3){p[0], p[1], p[2]});
+    }
+    return true;
+}
+
+// Corner lists are clockwise from outside; ours run the other way.
+static void add_face(struct face_list *f, const uint32_t *corners, uint32_t count)
+{
+    array_reserve(&f->corners, &f->corner_room, (size_t)f->corner_count + count);
+    array_reserve(&f->ends, &f->end_room, (size_t)f->count + 1);
+    for (uint32_t i = count; i-- > 0;)
+        f->corners[f->corner_count++] = corners[i];
+    f->ends[f->count++] = f->corner_count;
+}
+
+static bool read_faces(struct builder *b, const struct args *args, uint32_t point_count,
+                       struct face_list *out)
+{
+    const struct csg_value *faces = args->values[1];
+    if (!value_is_vector(faces))
+        faces = args->values[3];
+    if (!value_is_vector(faces)) {
+        builder_warn(b, args->node, "polyhedron() needs a vector of faces; left out");
+        return false;
+    }
+    uint32_t *corners = NULL, room = 0, bad = 0, small = 0;
+    for (uint32_t i = 0; i < faces->count; i++) {
+        struct csg_value hold, element;
+        const struct csg_value *face = value_item(faces, i, &hold);
+        uint32_t wanted = value_is_vector(face) ? face->count : 0, count = 0;
+        array_reserve(&corners, &room, wanted);
+        for (uint32_t k = 0; k < wanted; k++) {
+            double index = -1;
+            value_number(value_item(face, k, &element), &index);
+            index = trunc(index);
+            if (index >= 0 && index < point_count)
+                corners[count++] = (uint32_t)index;
+            else if (++bad == 1)
+                builder_warn(b, args->node,
+                             "polyhedron() face %u: no point has the number of corner %u; skipped",
+                             i, k);
+        }
+        if (count >= 3)
+            add_face(out, corners, count);
+        else if (++small == 1)
+            builder_warn(b, args->node, "polyhedron() face %u has fewer than 3 corners; left out",
+                         i);
+    }
+    free(corners);
+    if (bad > 1)
+        builder_warn(b, args->node, "polyhedron() has %u such corners", bad);
+    if (small > 1)
+        builder_warn(b, args->node, "polyhedron() has %u such faces", small);
+    return true;
+}
+
+static uint64_t key_of(const struct mesh *points, const struct face_list *f)
+{
+    uint64_t h = hash_bytes(KEY_POLYHEDRON, points->vertices,
+                            points->vertex_count * sizeof *points->vertices);
+    h = hash_bytes(h, f->ends, f->count * sizeof *f->ends);
+    return hash_bytes(h, f->corners, f->corner_count * sizeof *f->corners);
+}
+
+static const struct solid *make_solid(struct builder *b, uint64_t key, struct mesh_builder *m,
+                                      const struct face_list *f)
+{
+    if (!b->cutter)
+        b->cutter = polygon_cutter_new();
+    for (uint32_t i = 0, from = 0; i < f->count; from = f->ends[i++])
+        polygon_cut(b->cutter, m, f->corners + from, f->ends[i] - from);
+    mesh_weld(&m->mesh);
+    return store_add(b->store, key, &m->mesh, false);
+}
+
+const struct solid *shape_polyhedron(struct builder *b, const struct args *args, struct affine *out)
+{
+    (void)out; // stands where its points say
+    const struct solid *solid = NULL;
+    struct mesh_builder m = {0};
+    struct face_list faces = {0};
+    if (read_points(b, args, &m) && read_faces(b, args, m.mesh.vertex_count, &faces)) {
+        uint64_t key = key_of(&m.mesh, &faces);
+        solid = store_find(b->store, key);
+        if (!solid)
+            solid = make_solid(b, key, &m, &faces);
+        if (!solid->mesh.triangle_count)
+            solid = NULL;
+    }
+    mesh_free(&m.mesh);
+    free(faces.corners);
+    free(faces.ends);
+    return solid;
+}

@@ -1,0 +1,130 @@
+// term.c - placed shapes and the operations between them, with the marks % and #.
+#include "model/term.h"
+
+#include "base/mem.h"
+#include "csg/csg.h"
+
+#include <stdlib.h>
+
+static uint32_t add_term(struct scene *s, struct term t)
+{
+    array_reserve(&s->terms, &s->term_room, (size_t)s->term_count + 1);
+    s->terms[s->term_count] = t;
+    return s->term_count++;
+}
+
+static void list_add(struct term_list *l, uint32_t term)
+{
+    array_reserve(&l->items, &l->room, (size_t)l->count + 1);
+    l->items[l->count++] = term;
+}
+
+uint32_t scene_leaf(struct scene *s, const struct placed *p)
+{
+    array_reserve(&s->placed, &s->placed_room, (size_t)s->placed_count + 1);
+    s->placed[s->placed_count] = *p;
+    return add_term(s, (struct term){.op = TERM_LEAF, .left = s->placed_count++});
+}
+
+void scene_mark(struct scene *s, uint32_t term, uint8_t marks)
+{
+    if (term < TERM_EMPTY)
+        s->terms[term].marks |= marks;
+}
+
+uint32_t scene_marks(const struct scene *s, uint32_t term)
+{
+    return term < TERM_EMPTY ? s->terms[term].marks : 0;
+}
+
+void scene_rendered(struct scene *s, uint32_t term)
+{
+    if (term < TERM_EMPTY)
+        s->terms[term].rendered = true;
+}
+
+void scene_show_apart(struct scene *s, uint32_t term)
+{
+    uint32_t marks = scene_marks(s, term);
+    if (marks & CSG_BACKGROUND)
+        list_add(&s->backgrounds, term);
+    if (marks & CSG_HIGHLIGHT)
+        list_add(&s->highlights, term);
+    if (marks)
+        s->terms[term].marks = 0;
+}
+
+// x + 0 = x, x - 0 = x, 0 - x = 0, x * 0 = 0.
+static uint32_t combine(struct scene *s, enum term_op op, uint32_t left, uint32_t right)
+{
+    if (op == TERM_INTERSECTION && (left == TERM_EMPTY || right == TERM_EMPTY))
+        return TERM_EMPTY;
+    if (op == TERM_DIFFERENCE && left == TERM_EMPTY)
+        return TERM_EMPTY;
+    if (right == TERM_EMPTY)
+        return left;
+    if (left == TERM_EMPTY)
+        return right;
+    return add_term(s, (struct term){.op = (uint8_t)op, .left = left, .right = right});
+}
+
+static uint32_t fold_union(struct scene *s, uint32_t left, uint32_t right)
+{
+    bool left_marked = scene_marks(s, left) & CSG_HIGHLIGHT;
+    bool right_marked = scene_marks(s, right) & CSG_HIGHLIGHT;
+    if (left == TERM_EMPTY || right == TERM_EMPTY || left_marked == right_marked) {
+        uint32_t t = combine(s, TERM_UNION, left, right);
+        if (left_marked && right_marked)
+            scene_mark(s, t, CSG_HIGHLIGHT);
+        return t;
+    }
+    scene_show_apart(s, left_marked ? left : right);
+    return left_marked ? right : left;
+}
+
+uint32_t scene_fold(struct scene *s, enum term_op op, uint32_t left, uint32_t right)
+{
+    if (left == TERM_NONE)
+        return right;
+    uint32_t left_marks = scene_marks(s, left), right_marks = scene_marks(s, right);
+    if ((left_marks & CSG_BACKGROUND) && (right_marks & CSG_BACKGROUND)) {
+        uint32_t t = combine(s, op, left, right);
+        scene_mark(s, t, (uint8_t)(CSG_BACKGROUND | (left_marks & right_marks & CSG_HIGHLIGHT)));
+        return t;
+    }
+    if (right_marks & CSG_BACKGROUND) {
+        scene_show_apart(s, right);
+        return left;
+    }
+    if (left_marks & CSG_BACKGROUND) {
+        scene_show_apart(s, left);
+        return right;
+    }
+    if (op == TERM_UNION)
+        return fold_union(s, left, right);
+    uint32_t t = combine(s, op, left, right);
+    bool all = op == TERM_DIFFERENCE ? left_marks : left_marks && right_marks;
+    if (all) {
+        scene_mark(s, t, CSG_HIGHLIGHT);
+        return t;
+    }
+    scene_show_apart(s, left);
+    scene_show_apart(s, right);
+    return t;
+}
+
+void scene_finish(struct scene *s, uint32_t root)
+{
+    bool background = scene_marks(s, root) & CSG_BACKGROUND;
+    scene_show_apart(s, root);
+    s->root = background || root == TERM_NONE ? TERM_EMPTY : root;
+}
+
+void scene_free(struct scene *s)
+{
+    free(s->placed);
+    free(s->terms);
+    free(s->backgrounds.items);
+    free(s->highlights.items);
+    *s = (struct scene){0};
+}

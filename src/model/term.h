@@ -1,0 +1,53 @@
+// term.h - placed shapes and the operations between them, with the marks % and #.
+#pragma once
+#include "base/vec.h"
+#include "geom/solid.h"
+
+// A shape where it stands. A solid of NULL is the empty set.
+struct placed {
+    const struct solid *solid;
+    struct affine to_world;
+    float colour[4]; // a component below 0 is not set
+    uint32_t line, column;
+};
+
+enum term_op { TERM_LEAF, TERM_UNION, TERM_INTERSECTION, TERM_DIFFERENCE };
+
+#define TERM_NONE  UINT32_MAX       // no operand yet
+#define TERM_EMPTY (UINT32_MAX - 1) // the empty set
+
+struct term {
+    uint8_t op;     // enum term_op
+    uint8_t marks;  // CSG_BACKGROUND, CSG_HIGHLIGHT
+    bool rendered;  // came from render(): its cut faces look like its others
+    uint32_t left;  // operand; LEAF: number of the placed shape
+    uint32_t right; // operand
+};
+
+struct term_list {
+    uint32_t *items;
+    uint32_t count, room;
+};
+
+struct scene { // {0} is empty
+    struct placed *placed;
+    uint32_t placed_count, placed_room;
+    struct term *terms;
+    uint32_t term_count, term_room;
+    uint32_t root; // the picture's solid part
+    struct term_list backgrounds, highlights;
+};
+
+uint32_t scene_leaf(struct scene *s, const struct placed *p);
+void scene_mark(struct scene *s, uint32_t term, uint8_t marks);
+uint32_t scene_marks(const struct scene *s, uint32_t term);
+void scene_rendered(struct scene *s, uint32_t term);
+
+// The fold of one more operand: left is TERM_NONE before the first. Marked operands are moved to
+// the lists as OpenSCAD does it; the result carries a mark when the marked object is all of it.
+uint32_t scene_fold(struct scene *s, enum term_op op, uint32_t left, uint32_t right);
+// Ends the fold of the top level: what still carries a mark is moved to the lists.
+void scene_finish(struct scene *s, uint32_t root);
+void scene_show_apart(struct scene *s, uint32_t term); // lists a marked term, takes its marks off
+
+void scene_free(struct scene *s); // leaves {0}

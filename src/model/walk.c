@@ -1,0 +1,307 @@
+// walk.c - from the tree of the file to placed shapes and operations between them.
+//
+// No recursion: files nest as deep as memory allows.
+#include "model/nodes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct colour {
+    float c[4];
+};
+
+enum render_state { RENDER_OUTSIDE, RENDER_NODE, RENDER_BELOW };
+
+// A node whose children are being folded.
+struct frame {
+    const struct csg_node *node;     // NULL: the top level
+    const struct csg_node *next;     // child to be visited
+    uint32_t term;                   // of the children so far
+    uint32_t matrix, colour, detail; // newest entries of the stacks that hold for the children
+    uint8_t operation, render;
+};
+
+struct walk {
+    struct builder *b;
+    struct frame *frames;
+    uint32_t frame_count, frame_room;
+    struct affine *matrices;
+    uint32_t matrix_room;
+    struct colour *colours;
+    uint32_t colour_room;
+    struct detail *details;
+    uint32_t detail_room;
+    // Names are interned: what a pointer means is remembered by its address.
+    struct {
+        const char *name;
+        const struct node_type *type;
+    } cache[64];
+    struct { // of the newest warning about an unsupported node
+        const char *name;
+        uint32_t line;
+    } warned;
+};
+
+static const struct node_type *type_of(struct walk *w, const struct csg_node *n)
+{
+    size_t slot = ((uintptr_t)n->name >> 4 ^ (uintptr_t)n->name >> 10) % array_count(w->cache);
+    if (w->cache[slot].name != n->name) {
+        w->cache[slot].name = n->name;
+        w->cache[slot].type = node_type_of(n->name);
+    }
+    return w->cache[slot].type;
+}
+
+static void push_matrix(struct walk *w, struct frame *f, const struct affine *m)
+{
+    array_reserve(&w->matrices, &w->matrix_room, (size_t)f->matrix + 2);
+    w->matrices[f->matrix + 1] = affine_mul(&w->matrices[f->matrix], m);
+    f->matrix++;
+}
+
+// The outermost colour whose components are all set wins.
+static void push_colour(struct walk *w, struct frame *f, const struct args *args)
+{
+    const float *now = w->colours[f->colour].c;
+    struct colour colour;
+    colour_of(w->b, args, colour.c);
+    if (f->render != RENDER_OUTSIDE || (now[0] >= 0 && now[1] >= 0 && now[2] >= 0 && now[3] >= 0))
+        return;
+    array_reserve(&w->colours, &w->colour_room, (size_t)f->colour + 2);
+    w->colours[++f->colour] = colour;
+}
+
+static void push_detail(struct walk *w, struct frame *f, struct detail d)
+{
+    array_reserve(&w->details, &w->detail_room, (size_t)f->detail + 2);
+    w->details[++f->detail] = d;
+}
+
+// Assignments hold for the whole block, also before the place where they stand.
+static void read_assignments(struct walk *w, struct frame *f)
+{
+    struct detail d = w->details[f->detail];
+    bool any = false;
+    for (const struct csg_node *n = f->next; n; n = n->next)
+        if (n->name[0] == CSG_ASSIGN[0] && n->argument_count == 1)
+            any |= detail_set(&d, n->arguments[0].name, &n->arguments[0].value);
+    if (any)
+        push_detail(w, f, d);
+}
+
+static void push_frame(struct walk *w, struct frame f)
+{
+    read_assignments(w, &f);
+    array_reserve(&w->frames, &w->frame_room, (size_t)w->frame_count + 1);
+    w->frames[w->frame_count++] = f;
+}
+
+// Below render() the parts are one object: % is left out of it, # takes part, and both are shown
+// beside it, except those directly below render().
+static void fold_rendered(struct walk *w, struct frame *f, uint32_t term)
+{
+    struct scene *s = &w->b->scene;
+    uint32_t marks = scene_marks(s, term);
+    if (f->render == RENDER_BELOW)
+        scene_show_apart(s, term);
+    else if (marks)
+        s->terms[term].marks = 0;
+    if (!(marks & CSG_BACKGROUND))
+        f->term = scene_fold(s, f->operation, f->term, term);
+}
+
+static void fold(struct walk *w, uint32_t term)
+{
+    struct frame *f = &w->frames[w->frame_count - 1];
+    if (f->render != RENDER_OUTSIDE)
+        fold_rendered(w, f, term);
+    else
+        f->term = scene_fold(&w->b->scene, f->operation, f->term, term);
+}
+
+static bool is_finite(const struct affine *a)
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            if (!isfinite(a->m[i][j]))
+                return false;
+    return true;
+}
+
+static void mark(struct walk *w, const struct csg_node *n, uint32_t term)
+{
+    scene_mark(&w->b->scene, term, n->modifiers & (CSG_BACKGROUND | CSG_HIGHLIGHT));
+}
+
+static void visit_shape(struct walk *w, const struct csg_node *n, const struct node_type *type)
+{
+    static const double largest = 1e30; // far inside what 32-bit numbers hold
+    const struct frame *f = &w->frames[w->frame_count - 1];
+    struct args args;
+    struct affine place = AFFINE_IDENTITY;
+    args_bind(&args, w->b, n, type->parameters, w->details[f->detail]);
+    const struct solid *solid = type->shape(w->b, &args, &place);
+    if (!solid) {
+        fold(w, TERM_EMPTY);
+        return;
+    }
+    struct placed p = {.solid = solid,
+                       .to_world = affine_mul(&w->matrices[f->matrix], &place),
+                       .line = n->line,
+                       .column = n->column};
+    memcpy(p.colour, w->colours[f->colour].c, sizeof p.colour);
+    struct box box = box_transformed(solid->bounds, &p.to_world);
+    if (!(fmin(box.min.x, fmin(box.min.y, box.min.z)) >= -largest &&
+          fmax(box.max.x, fmax(box.max.y, box.max.z)) <= largest)) {
+        builder_warn(w->b, n, "%s() is too large or too far away to be drawn; left out", n->name);
+        fold(w, TERM_EMPTY);
+        return;
+    }
+    uint32_t term = scene_leaf(&w->b->scene, &p);
+    mark(w, n, term);
+    fold(w, term);
+}
+
+static void visit_parent(struct walk *w, const struct csg_node *n, const struct node_type *type)
+{
+    struct frame f = w->frames[w->frame_count - 1];
+    f.node = n;
+    f.next = n->child;
+    f.term = TERM_NONE;
+    f.operation = (uint8_t)type->operation;
+    if (type->parameters) {
+        struct args args;
+        args_bind(&args, w->b, n, type->parameters, w->details[f.detail]);
+        if (args.own_detail)
+            push_detail(w, &f, args.detail);
+        if (type->kind == NODE_COLOUR)
+            push_colour(w, &f, &args);
+        if (type->kind == NODE_TRANSFORM) {
+            struct affine m;
+            type->transform(w->b, &args, &m);
+            push_matrix(w, &f, &m);
+        }
+    }
+    if (!is_finite(&w->matrices[f.matrix])) {
+        builder_warn(w->b, n, "the matrix of %s() is not finite; left out", n->name);
+        fold(w, TERM_EMPTY);
+        return;
+    }
+    if (f.render == RENDER_NODE)
+        f.render = RENDER_BELOW;
+    else if (type->kind == NODE_RENDER && f.render == RENDER_OUTSIDE)
+        f.render = RENDER_NODE;
+    push_frame(w, f);
+}
+
+static void visit_unsupported(struct walk *w, const struct csg_node *n)
+{
+    w->b->unsupported++;
+    if (n->name != w->warned.name || n->line != w->warned.line)
+        builder_warn(w->b, n, "%s() is not supported yet; left out", n->name);
+    w->warned.name = n->name;
+    w->warned.line = n->line;
+    fold(w, TERM_EMPTY);
+}
+
+static void visit(struct walk *w, const struct csg_node *n)
+{
+    if (n->modifiers & CSG_DISABLE)
+        return;
+    const struct node_type *type = type_of(w, n);
+    switch (type->kind) {
+    case NODE_OPERATION:
+    case NODE_TRANSFORM:
+    case NODE_COLOUR:
+    case NODE_RENDER:
+        visit_parent(w, n, type);
+        break;
+    case NODE_SHAPE:
+        visit_shape(w, n, type);
+        break;
+    case NODE_UNSUPPORTED:
+        visit_unsupported(w, n);
+        break;
+    case NODE_UNKNOWN:
+        builder_warn(w->b, n, "unknown object '%s'; left out", n->name);
+        break;
+    case NODE_ASSIGNMENT:
+        break;
+    }
+}
+
+static void leave(struct walk *w)
+{
+    struct frame f = w->frames[--w->frame_count];
+    uint32_t term = f.term == TERM_NONE ? TERM_EMPTY : f.term;
+    mark(w, f.node, term);
+    if (f.render == RENDER_NODE)
+        scene_rendered(&w->b->scene, term);
+    fold(w, term);
+}
+
+// The first node marked with ! in the order of the file, NULL without one.
+static const struct csg_node *find_root(struct builder *b)
+{
+    const struct csg_node **stack = NULL, *root = NULL;
+    uint32_t count = 0, room = 0;
+    for (const struct csg_node *n = b->tree->first; n || count;) {
+        if (!n) {
+            n = stack[--count];
+            continue;
+        }
+        bool active = !(n->modifiers & CSG_DISABLE);
+        if (active && (n->modifiers & CSG_ROOT)) {
+            if (root) {
+                builder_warn(b, n, "another object is marked with '!' before; it is the root");
+                break;
+            }
+            root = n;
+        }
+        if (active && n->child) {
+            if (n->next) {
+                array_reserve(&stack, &room, (size_t)count + 1);
+                stack[count++] = n->next;
+            }
+            n = n->child;
+        } else
+            n = n->next;
+    }
+    free(stack);
+    return root;
+}
+
+void builder_walk(struct builder *b)
+{
+    struct walk w = {.b = b};
+    array_reserve(&w.matrices, &w.matrix_room, 1);
+    array_reserve(&w.colours, &w.colour_room, 1);
+    array_reserve(&w.details, &w.detail_room, 1);
+    w.matrices[0] = AFFINE_IDENTITY;
+    w.colours[0] = (struct colour){{-1, -1, -1, -1}};
+    w.details[0] = DETAIL_DEFAULT;
+
+    const struct csg_node *root = find_root(b);
+    push_frame(&w,
+               (struct frame){.next = b->tree->first, .term = TERM_NONE, .operation = TERM_UNION});
+    if (root) {
+        w.frames[0].next = NULL;
+        visit(&w, root);
+    }
+    for (;;) {
+        struct frame *f = &w.frames[w.frame_count - 1];
+        const struct csg_node *n = f->next;
+        if (n) {
+            f->next = n->next;
+            visit(&w, n);
+        } else if (f->node)
+            leave(&w);
+        else
+            break;
+    }
+    scene_finish(&b->scene, w.frames[0].term);
+    free(w.frames);
+    free(w.matrices);
+    free(w.colours);
+    free(w.details);
+}
