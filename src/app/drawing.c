@@ -16,14 +16,14 @@ struct drawing {
 
     uv_mutex_t mutex; // guards what follows
     uv_cond_t asked;
-    struct drawing_job next; // scene NULL: nothing asked for
+    struct drawing_job next; // loaded NULL: nothing asked for
     struct shot newest;
     bool fresh, stopping;
 };
 
 void shot_free(struct shot *s)
 {
-    scene_release(s->job.scene);
+    loaded_release(s->job.loaded);
     free(s->rgb);
     *s = (struct shot){0};
 }
@@ -31,11 +31,12 @@ void shot_free(struct shot *s)
 static void draw(struct shot *s, const struct drawing_job *job, struct cpu_device *device,
                  struct picture *picture)
 {
-    scene_release(s->job.scene);
+    loaded_release(s->job.loaded);
     s->job = *job;
     s->begun = clock_seconds();
-    struct rays rays = camera_rays(&job->camera, job->width, job->height, job->scene->model.bounds);
-    picture_draw(picture, device, &job->scene->shader, &rays, &job->settings, &s->stats);
+    struct rays rays =
+        camera_rays(&job->camera, job->width, job->height, job->loaded->model.bounds);
+    picture_draw(picture, device, &job->loaded->shader, &rays, &job->settings, &s->stats);
     size_t size = 3 * (size_t)job->width * (size_t)job->height;
     if (s->capacity < size) {
         free(s->rgb);
@@ -61,14 +62,14 @@ static void run(void *context)
     struct shot work = {0};
     for (;;) {
         uv_mutex_lock(&d->mutex);
-        while (!d->next.scene && !d->stopping)
+        while (!d->next.loaded && !d->stopping)
             uv_cond_wait(&d->asked, &d->mutex);
         struct drawing_job job = d->next;
-        d->next.scene = NULL;
+        d->next.loaded = NULL;
         bool stopping = d->stopping;
         uv_mutex_unlock(&d->mutex);
         if (stopping) {
-            scene_release(job.scene);
+            loaded_release(job.loaded);
             break;
         }
         draw(&work, &job, device, &picture);
@@ -104,12 +105,12 @@ struct drawing *drawing_start(void (*done)(void *context), void *context, struct
 void drawing_ask(struct drawing *d, const struct drawing_job *job)
 {
     uv_mutex_lock(&d->mutex);
-    struct scene *replaced = d->next.scene;
+    struct loaded *replaced = d->next.loaded;
     d->next = *job;
-    scene_hold(job->scene);
+    loaded_hold(job->loaded);
     uv_cond_signal(&d->asked);
     uv_mutex_unlock(&d->mutex);
-    scene_release(replaced);
+    loaded_release(replaced);
 }
 
 bool drawing_take(struct drawing *d, struct shot *shot)

@@ -5,7 +5,7 @@
 #include "render/device.h"
 
 struct drawing_job {
-    struct scene *scene; // borrowed when asked; held by the shot
+    struct loaded *loaded; // borrowed when asked; held by the shot
     struct camera camera;
     int width, height; // of the picture
     int divisor;       // how many pixels of the window one of the picture stands for

@@ -32,8 +32,8 @@ static void look_along(struct input *in, double x, double y, double z)
 
 static void view_all(struct input *in)
 {
-    camera_autocenter(&in->camera, in->scene);
-    camera_viewall(&in->camera, in->scene);
+    camera_autocenter(&in->camera, in->bounds);
+    camera_viewall(&in->camera, in->bounds);
     in->moved = true;
 }
 

@@ -14,7 +14,7 @@ enum command {
 
 struct input {
     struct camera camera;
-    struct box scene;  // what "view all" shows
+    struct box bounds; // what "view all" shows
     bool moved;        // the camera is not the one the viewer saw last
     bool exposed;      // the window has to be painted
     unsigned commands; // bits of enum command

@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "csg/csg.h"
 #include "scad/openscad.h"
 
 #include <errno.h>
@@ -37,12 +38,12 @@ struct loader {
     bool patient;      // failures may pass
 
     uv_mutex_t mutex; // guards what follows
-    struct scene *retired;
+    struct loaded *retired;
     struct loader_news news;
     bool fresh, stopping, reload;
 };
 
-struct scene *scene_hold(struct scene *s)
+struct loaded *loaded_hold(struct loaded *s)
 {
     if (s)
         atomic_fetch_add(&s->references, 1);
@@ -50,7 +51,7 @@ struct scene *scene_hold(struct scene *s)
 }
 
 // Models are freed where they are built: the store of solids belongs to one thread.
-void scene_release(struct scene *s)
+void loaded_release(struct loaded *s)
 {
     if (!s || atomic_fetch_sub(&s->references, 1) != 1)
         return;
@@ -62,13 +63,13 @@ void scene_release(struct scene *s)
     uv_async_send(&l->wake);
 }
 
-static void publish(struct loader *l, struct scene *scene, char *message, bool failed, bool busy)
+static void publish(struct loader *l, struct loaded *loaded, char *message, bool failed, bool busy)
 {
     uv_mutex_lock(&l->mutex);
-    struct scene *unseen = NULL;
-    if (scene) {
-        unseen = l->news.scene;
-        l->news.scene = scene;
+    struct loaded *unseen = NULL;
+    if (loaded) {
+        unseen = l->news.loaded;
+        l->news.loaded = loaded;
     }
     if (message) {
         free(l->news.message);
@@ -78,7 +79,7 @@ static void publish(struct loader *l, struct scene *scene, char *message, bool f
     l->news.busy = busy;
     l->fresh = true;
     uv_mutex_unlock(&l->mutex);
-    scene_release(unseen);
+    loaded_release(unseen);
     l->options.woken(l->options.context);
 }
 
@@ -130,16 +131,14 @@ static void fail(struct loader *l, struct messages *m)
     publish(l, NULL, summary(m), true, l->job != NULL);
 }
 
-static void build(struct loader *l, struct csg_tree *tree, struct messages *m,
+static void build(struct loader *l, const struct csg_tree *tree, struct messages *m,
                   struct load_times times)
 {
-    struct scene *s = mem_zalloc(sizeof *s);
+    struct loaded *s = mem_zalloc(sizeof *s);
     struct model_options options = MODEL_DEFAULTS;
     options.epsilon = l->options.epsilon;
     model_build(&s->model, tree, l->store, &options, m);
     shader_init(&s->shader, &s->model, l->options.scheme);
-    s->tree = *tree;
-    *tree = (struct csg_tree){0};
     times.built = clock_seconds();
     s->times = times;
     s->number = ++l->loads;
@@ -253,13 +252,12 @@ static void on_signal(uv_signal_t *handle, int number)
     l->options.woken(l->options.context);
 }
 
-static void free_scenes(struct scene *s)
+static void free_loaded(struct loaded *s)
 {
-    for (struct scene *next; s; s = next) {
+    for (struct loaded *next; s; s = next) {
         next = s->next;
         shader_free(&s->shader);
         model_free(&s->model);
-        csg_free(&s->tree);
         free(s);
     }
 }
@@ -268,12 +266,12 @@ static void on_wake(uv_async_t *handle)
 {
     struct loader *l = handle->data;
     uv_mutex_lock(&l->mutex);
-    struct scene *retired = l->retired;
+    struct loaded *retired = l->retired;
     bool reload = l->reload, stopping = l->stopping;
     l->retired = NULL;
     l->reload = false;
     uv_mutex_unlock(&l->mutex);
-    free_scenes(retired);
+    free_loaded(retired);
     if (stopping) {
         if (l->job)
             scad_cancel(l->job);
@@ -343,7 +341,7 @@ bool loader_take(struct loader *l, struct loader_news *out)
     if (fresh) {
         *out = l->news;
         out->message = mem_strdup(l->news.message ? l->news.message : "");
-        l->news.scene = NULL;
+        l->news.loaded = NULL;
         l->fresh = false;
     }
     uv_mutex_unlock(&l->mutex);
@@ -362,14 +360,14 @@ void loader_stop(struct loader *l)
 {
     if (!l)
         return;
-    scene_release(l->news.scene);
+    loaded_release(l->news.loaded);
     uv_mutex_lock(&l->mutex);
     l->stopping = true;
     uv_mutex_unlock(&l->mutex);
     uv_async_send(&l->wake);
     uv_thread_join(&l->thread);
     uv_loop_close(&l->loop);
-    free_scenes(l->retired);
+    free_loaded(l->retired);
     uv_mutex_destroy(&l->mutex);
     free(l->news.message);
     free(l);

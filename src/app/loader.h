@@ -1,6 +1,5 @@
 // loader.h - reads the file, builds its model and follows both, on a thread of its own.
 #pragma once
-#include "csg/csg.h"
 #include "model/model.h"
 #include "render/shade.h"
 
@@ -13,19 +12,18 @@ struct load_times { // clock_seconds
 };
 
 // One loaded model, shared by the threads that show it.
-struct scene {
+struct loaded {
     struct model model;
     struct shader shader;
-    struct csg_tree tree; // the places of leaves borrow its file name
     struct load_times times;
     uint32_t number; // of the load, from 1
     atomic_uint references;
     struct loader *loader;
-    struct scene *next; // among those that nobody holds any more
+    struct loaded *next; // among those that nobody holds any more
 };
 
-struct scene *scene_hold(struct scene *s);
-void scene_release(struct scene *s); // NULL is fine
+struct loaded *loaded_hold(struct loaded *s);
+void loaded_release(struct loaded *s); // NULL is fine
 
 struct loader_options {
     const char *path;
@@ -39,16 +37,16 @@ struct loader_options {
 };
 
 struct loader_news {
-    struct scene *scene; // newer than the last one taken, now held by the taker; or NULL
-    char *message;       // what there is to say about the file as it is now, "" when nothing; owned
-    bool failed;         // the message says why there is no newer scene
-    bool busy;           // openscad runs
-    bool ended;          // SIGINT or SIGTERM came
+    struct loaded *loaded; // newer than the last one taken, now held by the taker; or NULL
+    char *message; // what there is to say about the file as it is now, "" when nothing; owned
+    bool failed;   // the message says why there is no newer model
+    bool busy;     // openscad runs
+    bool ended;    // SIGINT or SIGTERM came
 };
 
 struct loader *loader_start(const struct loader_options *options, struct error *err);
 // False when nothing is new since the last call.
 bool loader_take(struct loader *l, struct loader_news *out);
 void loader_reload(struct loader *l); // as if the file had been saved
-// All scenes have to be released before.
+// All models have to be released before.
 void loader_stop(struct loader *l);

@@ -26,14 +26,14 @@ struct viewer {
     struct input input;
     struct loader *loader;
     struct drawing *drawing;
-    struct scene *scene; // the newest
+    struct loaded *loaded; // the newest
     struct shot shown;
     bool framed;         // the camera stands
     bool drawn;          // a shot of the newest job was shown
     int divisor;         // of the newest job
     double refine_at;    // when a coarse job may be followed by a full one
     double setup, pixel; // seconds of the last shot: fixed, and for each pixel
-    uint32_t reported;   // number of the last scene whose way was printed
+    uint32_t reported;   // number of the last load whose way was printed
     char *message;
     bool failed, busy, ended;
     bool help, hide_messages, save;
@@ -71,11 +71,11 @@ static void take_news(struct viewer *v)
     struct loader_news news;
     if (!loader_take(v->loader, &news))
         return;
-    if (news.scene) {
-        scene_release(v->scene);
-        v->scene = news.scene;
-        v->input.scene = news.scene->model.bounds;
-        if (!v->framed && !box_is_empty(v->input.scene)) {
+    if (news.loaded) {
+        loaded_release(v->loaded);
+        v->loaded = news.loaded;
+        v->input.bounds = news.loaded->model.bounds;
+        if (!v->framed && !box_is_empty(v->input.bounds)) {
             input_reset_view(&v->input);
             v->framed = true;
         }
@@ -86,7 +86,7 @@ static void take_news(struct viewer *v)
     v->message = news.message;
     v->failed = news.failed;
     v->busy = news.busy;
-    v->ended = news.ended || (news.failed && !v->options->watch && !v->scene);
+    v->ended = news.ended || (news.failed && !v->options->watch && !v->loaded);
     show_state(v);
 }
 
@@ -105,17 +105,17 @@ static void ask(struct viewer *v, bool refined)
 {
     int width, height;
     glfwGetFramebufferSize(window_handle(v->window), &width, &height);
-    if (!v->scene || width < 1 || height < 1)
+    if (!v->loaded || width < 1 || height < 1)
         return;
     v->divisor = refined ? 1 : choose_divisor(v, width, height);
     v->drawn = false;
     struct drawing_job job = {
-        .scene = v->scene,
+        .loaded = v->loaded,
         .camera = v->input.camera,
         .width = (width + v->divisor - 1) / v->divisor,
         .height = (height + v->divisor - 1) / v->divisor,
         .divisor = v->divisor,
-        .settings = {.epsilon = model_epsilon(&v->scene->model, v->options->epsilon),
+        .settings = {.epsilon = model_epsilon(&v->loaded->model, v->options->epsilon),
                      .threads = v->options->threads},
         .asked = clock_seconds(),
     };
@@ -125,19 +125,19 @@ static void ask(struct viewer *v, bool refined)
 static void print_stats(struct viewer *v, double shown)
 {
     const struct shot *s = &v->shown;
-    const struct load_times *t = &s->job.scene->times;
+    const struct load_times *t = &s->job.loaded->times;
     printf("frame %dx%d 1/%d: %.1f ms, asked to shown %.1f ms, setup %.1f ms, %llu fragments, "
            "%llu misses\n",
            s->job.width, s->job.height, s->job.divisor, 1e3 * (s->done - s->begun),
            1e3 * (shown - s->job.asked), 1e3 * s->stats.seconds_setup,
            (unsigned long long)s->stats.fragments, (unsigned long long)s->stats.misses);
-    if (s->job.scene->number != v->reported)
+    if (s->job.loaded->number != v->reported)
         printf("load %u: %.1f ms to shown (wait %.1f, parse %.1f, model %.1f, draw %.1f, "
                "show %.1f), %u leaves\n",
-               s->job.scene->number, 1e3 * (shown - t->noticed), 1e3 * (t->started - t->noticed),
+               s->job.loaded->number, 1e3 * (shown - t->noticed), 1e3 * (t->started - t->noticed),
                1e3 * (t->parsed - t->started), 1e3 * (t->built - t->parsed),
                1e3 * (s->done - t->built), 1e3 * (shown - s->done),
-               s->job.scene->model.stats.leaves);
+               s->job.loaded->model.stats.leaves);
     fflush(stdout);
 }
 
@@ -173,7 +173,7 @@ static void take_shot(struct viewer *v)
     v->drawn = true;
     if (v->options->stats)
         print_stats(v, clock_seconds());
-    v->reported = s->job.scene->number;
+    v->reported = s->job.loaded->number;
     if (v->save && s->job.divisor == 1) {
         v->save = false;
         save_picture(v);
@@ -262,10 +262,10 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
         show_state(&v);
         run(&v);
     }
-    *ok = v.scene || options->watch;
+    *ok = v.loaded || options->watch;
     drawing_stop(v.drawing);
     shot_free(&v.shown);
-    scene_release(v.scene);
+    loaded_release(v.loaded);
     bool started = v.loader != NULL;
     loader_stop(v.loader);
     free(v.message);

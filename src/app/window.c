@@ -26,6 +26,7 @@ struct window {
     char *written[WINDOW_TEXTS]; // what the text layers show
     int written_width;           // of the window when they were made
     struct text_font *font;
+    bool fontless; // the system has none
 };
 
 static const char vertex_source[] =
@@ -121,9 +122,6 @@ struct window *window_new(int width, int height, struct rgb background, struct e
         window_delete(w);
         return NULL;
     }
-    float scale, unused;
-    glfwGetWindowContentScale(w->handle, &scale, &unused);
-    w->font = text_font_new((int)(TEXT_PIXELS * (scale > 1 ? scale : 1) + 0.5f));
     return w;
 }
 
@@ -167,10 +165,22 @@ void window_set_picture(struct window *w, const uint8_t *rgb, int width, int hei
     fill(&w->picture, GL_RGB8, GL_RGB, rgb, width, height, smooth ? GL_LINEAR : GL_NEAREST);
 }
 
+// Looking for fonts takes time that the first picture should not wait for.
+static struct text_font *font_of(struct window *w)
+{
+    if (!w->font && !w->fontless) {
+        float scale, unused;
+        glfwGetWindowContentScale(w->handle, &scale, &unused);
+        w->font = text_font_new((int)(TEXT_PIXELS * (scale > 1 ? scale : 1) + 0.5f));
+        w->fontless = !w->font;
+    }
+    return w->font;
+}
+
 static void write_text(struct window *w, enum window_text which, int width)
 {
     struct text_image image = {0};
-    if (w->font && w->written[which])
+    if (w->written[which] && *w->written[which] && font_of(w))
         text_draw(w->font, w->written[which], width - 4 * MARGIN, &image);
     if (image.width && image.height)
         fill(&w->texts[which], GL_R8, GL_RED, image.coverage, image.width, image.height,
