@@ -1,0 +1,83 @@
+// simd.h - eight floats at a time, through the vector types of gcc and clang.
+//
+// Everything here means the same on every processor: without AVX the compiler splits each
+// operation.
+#pragma once
+#include <stdint.h>
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+typedef float v8f __attribute__((vector_size(32)));
+typedef int32_t v8i __attribute__((vector_size(32))); // comparisons give -1 or 0 in each lane
+
+static inline v8f v8_set(float a)
+{
+    return (v8f){a, a, a, a, a, a, a, a};
+}
+
+static inline v8i v8_seti(int32_t a)
+{
+    return (v8i){a, a, a, a, a, a, a, a};
+}
+
+// Written lane by lane because C has no ?: for vectors; compilers make it one instruction.
+static inline v8f v8_max(v8f a, v8f b)
+{
+    v8f r;
+    for (int i = 0; i < 8; i++)
+        r[i] = a[i] > b[i] ? a[i] : b[i];
+    return r;
+}
+
+static inline v8f v8_min(v8f a, v8f b)
+{
+    v8f r;
+    for (int i = 0; i < 8; i++)
+        r[i] = a[i] < b[i] ? a[i] : b[i];
+    return r;
+}
+
+static inline v8f v8_select(v8i mask, v8f yes, v8f no)
+{
+    return (v8f)(((v8i)yes & mask) | ((v8i)no & ~mask));
+}
+
+static inline v8i v8_selecti(v8i mask, v8i yes, v8i no)
+{
+    return (yes & mask) | (no & ~mask);
+}
+
+static inline v8f v8_abs(v8f a)
+{
+    return (v8f)((v8i)a & v8_seti(0x7fffffff));
+}
+
+// Bit i: lane i of the mask.
+static inline int v8_bits(v8i mask)
+{
+#ifdef __AVX__
+    return _mm256_movemask_ps((__m256)mask);
+#else
+    int bits = 0;
+    for (int i = 0; i < 8; i++)
+        bits |= (mask[i] & 1) << i;
+    return bits;
+#endif
+}
+
+static inline float v8_lowest(v8f a)
+{
+    float m = a[0];
+    for (int i = 1; i < 8; i++)
+        m = a[i] < m ? a[i] : m;
+    return m;
+}
+
+static inline float v8_highest(v8f a)
+{
+    float m = a[0];
+    for (int i = 1; i < 8; i++)
+        m = a[i] > m ? a[i] : m;
+    return m;
+}

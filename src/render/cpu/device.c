@@ -1,0 +1,144 @@
+// device.c - the device on the processor: frames cut into tiles, tiles handed to threads.
+#include "render/device.h"
+
+#include "base/clock.h"
+#include "base/mem.h"
+#include "base/parallel.h"
+#include "render/cpu/kernel.h"
+
+#include <stdlib.h>
+
+enum { MEMORY_DEFAULT = 256 << 20 };
+
+struct tree_entry {
+    const struct solid *solid;
+    uint64_t hash;
+    struct mesh_tree tree;
+    bool used;
+};
+
+struct cpu_device {
+    const struct kernel *kernel;
+    struct tree_entry *trees; // of the mesh solids of the newest frames
+    uint32_t tree_count, tree_capacity;
+};
+
+struct cpu_device *cpu_device_new(void)
+{
+    struct cpu_device *d = mem_zalloc(sizeof *d);
+    d->kernel = &kernel_baseline;
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2"))
+        d->kernel = &kernel_avx2;
+#endif
+    return d;
+}
+
+void cpu_device_delete(struct cpu_device *d)
+{
+    if (!d)
+        return;
+    for (uint32_t i = 0; i < d->tree_count; i++)
+        mesh_tree_free(&d->trees[i].tree);
+    free(d->trees);
+    free(d);
+}
+
+static uint32_t find_tree(struct cpu_device *d, const struct solid *s)
+{
+    for (uint32_t i = 0; i < d->tree_count; i++)
+        if (d->trees[i].solid == s && d->trees[i].hash == s->hash)
+            return i;
+    array_reserve(&d->trees, &d->tree_capacity, d->tree_count + 1);
+    struct tree_entry *e = &d->trees[d->tree_count];
+    *e = (struct tree_entry){.solid = s, .hash = s->hash};
+    mesh_tree_build(&e->tree, &s->mesh);
+    return d->tree_count++;
+}
+
+// Gives each mesh leaf the tree of its solid; trees that no leaf of the body uses are dropped.
+static void attach_trees(struct cpu_device *d, struct frame *f)
+{
+    const struct body *b = f->body;
+    for (uint32_t i = 0; i < d->tree_count; i++)
+        d->trees[i].used = false;
+    for (uint32_t i = 0; i < b->leaf_count; i++)
+        if (!b->leaves[i].solid->convex)
+            d->trees[find_tree(d, b->leaves[i].solid)].used = true;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < d->tree_count; i++) {
+        if (d->trees[i].used)
+            d->trees[kept++] = d->trees[i];
+        else
+            mesh_tree_free(&d->trees[i].tree);
+    }
+    d->tree_count = kept;
+    for (uint32_t i = 0; i < f->leaf_count; i++) {
+        const struct solid *s = b->leaves[f->leaves[i].leaf].solid;
+        if (!s->convex)
+            f->leaves[i].tree = &d->trees[find_tree(d, s)].tree;
+    }
+}
+
+struct run {
+    const struct kernel *kernel;
+    const struct kernel_job *job;
+    void **workers; // made by each thread when it first has work
+};
+
+static void run_tile(void *context, uint32_t item, uint32_t worker)
+{
+    struct run *r = context;
+    if (!r->workers[worker])
+        r->workers[worker] = r->kernel->worker_new(r->job, worker);
+    r->kernel->tile(r->workers[worker], r->job, item);
+}
+
+static void render(struct cpu_device *d, const struct body *body, const struct rays *rays,
+                   const struct render_settings *settings, struct kernel_job *job,
+                   struct render_stats *stats)
+{
+    struct frame f;
+    struct kernel_totals totals = {0};
+    double begun = clock_seconds();
+    uint32_t workers = parallel_workers(settings->threads);
+
+    frame_init(&f, body, rays, settings);
+    attach_trees(d, &f);
+    job->frame = &f;
+    job->memory = (settings->memory ? settings->memory : MEMORY_DEFAULT) / workers;
+    struct run r = {d->kernel, job, mem_zalloc(workers * sizeof(void *))};
+    double ready = clock_seconds();
+    parallel_for((uint32_t)(f.tiles_x * f.tiles_y), settings->threads, run_tile, &r);
+    for (uint32_t i = 0; i < workers; i++)
+        if (r.workers[i])
+            d->kernel->worker_delete(r.workers[i], &totals);
+    free(r.workers);
+    if (stats)
+        *stats = (struct render_stats){.seconds_setup = ready - begun,
+                                       .seconds_draw = clock_seconds() - ready,
+                                       .fragments = totals.fragments,
+                                       .misses = totals.misses,
+                                       .open_rays = totals.open_rays,
+                                       .peak_bytes = f.bytes + totals.bytes};
+    frame_free(&f);
+}
+
+void cpu_first_surface(struct cpu_device *d, const struct body *body, const struct rays *rays,
+                       const struct render_settings *settings, struct surface_image *out,
+                       struct render_stats *stats)
+{
+    struct kernel_job job = {.image = out};
+    out->width = rays->width;
+    out->height = rays->height;
+    render(d, body, rays, settings, &job, stats);
+}
+
+void cpu_spans(struct cpu_device *d, const struct body *body, const struct rays *rays,
+               const struct render_settings *settings,
+               void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+               void *context, struct render_stats *stats)
+{
+    struct kernel_job job = {.sink = sink, .context = context};
+    render(d, body, rays, settings, &job, stats);
+}

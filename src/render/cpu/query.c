@@ -1,0 +1,572 @@
+// query.c - first surfaces by interval queries, a block of rays at a time.
+#include "render/cpu/query.h"
+
+#include "base/mem.h"
+#include "render/cpu/walk.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NEVER    FLT_MAX
+#define NO_REF   UINT32_MAX
+#define LEAF_BIT 0x80000000u // in a reference: index of a tile leaf; else of a query node
+
+struct query_node { // a node of the expression, as far as the tile needs it
+    enum expr_op op;
+    uint32_t expr; // node number
+    uint32_t minus;
+    uint32_t first_link, last_link; // children while they are collected
+    uint32_t first, count;          // children in query.kids afterwards, front to back
+    float near, far;
+};
+
+struct query_link {
+    uint32_t ref, next;
+};
+
+struct query_part {
+    uint32_t root;         // NO_REF: nothing of it can show in the tile
+    uint32_t first, count; // its leaves in tile.leaves
+    float near;
+    bool query;
+};
+
+struct query {
+    struct tile *t;
+    struct query_node *nodes;
+    uint32_t node_count, node_capacity;
+    struct query_link *links;
+    uint32_t link_count, link_capacity;
+    uint32_t *kids;
+    uint32_t kid_count, kid_capacity;
+    struct query_part *parts;
+    uint32_t part_count, part_capacity;
+    uint32_t *node_of;                // per node of the expression: its query node in this tile
+    const struct mesh_interval *lane; // intervals of one leaf on one ray
+    uint32_t lane_count;
+    v8f limit[BLOCK]; // nothing beyond these keys matters
+};
+
+struct query *query_new(struct tile *t)
+{
+    struct query *q = mem_aligned(32, sizeof *q); // holds vectors
+    *q = (struct query){0};
+    uint32_t n = t->frame->body->expr.node_count;
+    q->t = t;
+    q->node_of = mem_alloc((n + 1) * sizeof *q->node_of);
+    for (uint32_t i = 0; i < n; i++)
+        q->node_of[i] = NO_REF;
+    t->bytes += n * sizeof *q->node_of;
+    return q;
+}
+
+void query_delete(struct query *q)
+{
+    if (!q)
+        return;
+    free(q->nodes);
+    free(q->links);
+    free(q->kids);
+    free(q->parts);
+    free(q->node_of);
+    free(q);
+}
+
+// ---------------------------------------------------------------- pruning
+
+static void add_child(struct query *q, uint32_t parent, uint32_t ref)
+{
+    array_reserve(&q->links, &q->link_capacity, q->link_count + 1);
+    q->links[q->link_count] = (struct query_link){ref, NO_REF};
+    struct query_node *n = &q->nodes[parent];
+    if (n->first_link == NO_REF)
+        n->first_link = q->link_count;
+    else
+        q->links[n->last_link].next = q->link_count;
+    n->last_link = q->link_count++;
+}
+
+// Links a leaf to its ancestors up to the part's node, as far as they are not linked yet.
+static uint32_t link_leaf(struct query *q, uint32_t index, uint32_t top)
+{
+    const struct expr *e = &q->t->frame->body->expr;
+    uint32_t node = e->leaf_node[q->t->leaves[index].leaf], ref = index | LEAF_BIT;
+    while (node != top) {
+        uint32_t parent = e->nodes[node].parent, known = q->node_of[parent];
+        if (known == NO_REF) {
+            array_reserve(&q->nodes, &q->node_capacity, q->node_count + 1);
+            known = q->node_count++;
+            q->node_of[parent] = known;
+            q->nodes[known] = (struct query_node){.op = e->nodes[parent].op,
+                                                  .expr = parent,
+                                                  .minus = NO_REF,
+                                                  .first_link = NO_REF,
+                                                  .last_link = NO_REF};
+            if (e->nodes[parent].minus == node)
+                q->nodes[known].minus = ref;
+            else
+                add_child(q, known, ref);
+            ref = known;
+            node = parent;
+            continue;
+        }
+        if (e->nodes[parent].minus == node)
+            q->nodes[known].minus = ref;
+        else
+            add_child(q, known, ref);
+        return NO_REF;
+    }
+    return ref;
+}
+
+static void bounds(const struct query *q, uint32_t ref, float *near, float *far)
+{
+    if (ref & LEAF_BIT) {
+        *near = q->t->leaves[ref & ~LEAF_BIT].near;
+        *far = q->t->leaves[ref & ~LEAF_BIT].far;
+    } else {
+        *near = q->nodes[ref].near;
+        *far = q->nodes[ref].far;
+    }
+}
+
+// Drops what cannot be solid here; returns what is left of the node. Depth is bounded by frame.c.
+static uint32_t prune(struct query *q, uint32_t ref)
+{
+    if (ref == NO_REF || ref & LEAF_BIT)
+        return ref;
+    const struct expr_node *e = &q->t->frame->body->expr.nodes[q->nodes[ref].expr];
+    bool any = q->nodes[ref].op == EXPR_UNION;
+    uint32_t kept = 0, last = NO_REF;
+    float near = any ? NEVER : -NEVER, far = any ? -NEVER : NEVER;
+
+    for (uint32_t l = q->nodes[ref].first_link; l != NO_REF; l = q->links[l].next) {
+        float n, f;
+        uint32_t kid = prune(q, q->links[l].ref);
+        q->links[l].ref = kid;
+        if (kid == NO_REF)
+            continue;
+        bounds(q, kid, &n, &f);
+        near = any ? fminf(near, n) : fmaxf(near, n);
+        far = any ? fmaxf(far, f) : fminf(far, f);
+        kept++;
+        last = kid;
+    }
+    if (!kept || (!any && (kept < e->count || near > far)))
+        return NO_REF;
+    uint32_t minus = prune(q, q->nodes[ref].minus);
+    if (kept == 1 && minus == NO_REF)
+        return last;
+    uint32_t first = q->kid_count;
+    array_reserve(&q->kids, &q->kid_capacity, q->kid_count + kept);
+    for (uint32_t l = q->nodes[ref].first_link; l != NO_REF; l = q->links[l].next)
+        if (q->links[l].ref != NO_REF)
+            q->kids[q->kid_count++] = q->links[l].ref;
+    struct query_node *n = &q->nodes[ref];
+    n->first = first;
+    n->count = kept;
+    n->minus = minus;
+    n->near = near;
+    n->far = far;
+    return ref;
+}
+
+void query_enter(struct query *q)
+{
+    struct tile *t = q->t;
+    q->node_count = q->link_count = q->kid_count = q->part_count = 0;
+    for (uint32_t i = 0, end; i < t->leaf_count; i = end) {
+        const struct frame_part *fp = &t->frame->parts[t->leaves[i].part];
+        struct query_part p = {.root = NO_REF, .first = i, .query = fp->query, .near = NEVER};
+        for (end = i; end < t->leaf_count && t->leaves[end].part == t->leaves[i].part; end++)
+            p.near = fminf(p.near, t->leaves[end].near);
+        p.count = end - i;
+        if (p.query) {
+            uint32_t begun = q->node_count, top = NO_REF;
+            for (uint32_t k = i; k < end; k++) {
+                uint32_t ref = link_leaf(q, k, fp->node);
+                top = ref != NO_REF ? ref : top;
+            }
+            for (uint32_t n = begun; n < q->node_count; n++)
+                q->node_of[q->nodes[n].expr] = NO_REF;
+            p.root = prune(q, top);
+            if (p.root == NO_REF)
+                continue;
+            float far;
+            bounds(q, p.root, &p.near, &far);
+        }
+        array_reserve(&q->parts, &q->part_capacity, q->part_count + 1);
+        q->parts[q->part_count++] = p;
+    }
+}
+
+// ---------------------------------------------------------------- rays of a block
+
+static float highest(const v8f *key) // of the rays that still have something ahead
+{
+    v8f m = v8_set(-NEVER);
+    for (int y = 0; y < BLOCK; y++)
+        m = v8_max(m, v8_select(key[y] < v8_set(NEVER), key[y], v8_set(-NEVER)));
+    return v8_highest(m);
+}
+
+static float lowest(const v8f *key)
+{
+    v8f m = v8_set(NEVER);
+    for (int y = 0; y < BLOCK; y++)
+        m = v8_min(m, key[y]);
+    return v8_lowest(m);
+}
+
+// The file's order decides between surfaces at one place.
+static bool later(const struct query *q, int32_t owner, int32_t than)
+{
+    if (owner < 0 || than < 0)
+        return owner >= 0;
+    return q->t->leaves[owner >> 1].leaf > q->t->leaves[than >> 1].leaf;
+}
+
+static float steep_of(struct query *q, int32_t owner, int ray, float key)
+{
+    float steep = 0;
+    if (owner >= 0)
+        tile_face(q->t, &q->t->leaves[owner >> 1], ray, owner & 1, key, &steep);
+    return steep;
+}
+
+// Is the interval between key `a` at the face of `owner_a` and key `b` at that of `owner_b` too
+// thin to exist?
+static bool thin(struct query *q, int ray, float a, int32_t owner_a, float b, int32_t owner_b,
+                 float band)
+{
+    if (b - a > band)
+        return false;
+    if (a >= b)
+        return true;
+    float steep = fmaxf(steep_of(q, owner_a, ray, a), steep_of(q, owner_b, ray, b));
+    return tile_thickness(q->t, a, b, steep) < q->t->frame->settings->epsilon;
+}
+
+// One ray moves to where it is next inside the leaf, with the filter.
+static void ray_in(struct query *q, int ray, float band, int32_t id, float *key, int32_t *owner)
+{
+    float c = *key;
+    for (uint32_t i = 0; i < q->lane_count; i++) {
+        float e = q->lane[i].enter, x = q->lane[i].leave;
+        if (!(x > c))
+            continue;
+        if (thin(q, ray, e > c ? e : c, e > c ? id : *owner, x, id | 1, band))
+            continue;
+        if (e > c) {
+            if (!(e - c <= band && *owner >= 0 && later(q, *owner, id) &&
+                  thin(q, ray, c, *owner, e, id, band)))
+                *owner = id;
+            *key = e;
+        } else if (c - e <= band && *owner >= 0 && later(q, id, *owner) &&
+                   thin(q, ray, e, id, c, *owner, band)) {
+            *owner = id;
+        }
+        return;
+    }
+    *key = NEVER;
+}
+
+// One ray moves to where it is next outside of the leaf.
+static void ray_out(struct query *q, int ray, float band, int32_t id, float *key, int32_t *owner)
+{
+    for (uint32_t i = 0; i < q->lane_count; i++) {
+        float e = q->lane[i].enter, x = q->lane[i].leave, c = *key;
+        if (x > c && (e <= c || thin(q, ray, c, *owner, e, id, band))) {
+            bool same = x - c <= band && *owner >= 0 && later(q, *owner, id | 1) &&
+                        thin(q, ray, c, *owner, x, id | 1, band);
+            *key = x;
+            *owner = same ? *owner : (id | 1);
+        } else if (x <= c && c - x <= band && *owner >= 0 && (*owner & 1) && later(q, id, *owner) &&
+                   thin(q, ray, x, id | 1, c, *owner, band)) {
+            *owner = id | 1;
+        }
+    }
+}
+
+// All rays, one at a time, on a copy: asking for faces may forget the block's crossings. False when
+// nothing changed.
+static bool leaf_slow(struct query *q, const struct block_leaf *b, int32_t id, bool out,
+                      struct rays_at *s)
+{
+    struct block_leaf *copy = mem_aligned(32, sizeof *copy);
+    uint32_t n = b->mesh ? b->first[BLOCK_PIXELS] : 0;
+    struct mesh_interval *intervals = n ? mem_alloc(n * sizeof *intervals) : NULL;
+    memcpy(copy, b, sizeof *copy);
+    if (n)
+        memcpy(intervals, q->t->mesh.intervals + b->interval, n * sizeof *intervals);
+    bool changed = false;
+    for (int i = 0; i < BLOCK_PIXELS; i++) {
+        float key = s->key[i / BLOCK][i % BLOCK];
+        int32_t owner = s->owner[i / BLOCK][i % BLOCK];
+        if (!(key < NEVER))
+            continue;
+        struct mesh_interval one = {.enter = copy->enter[i], .leave = copy->leave[i]};
+        q->lane = copy->mesh ? intervals + copy->first[i] : &one;
+        q->lane_count = copy->mesh ? copy->first[i + 1] - copy->first[i] : 1;
+        float moved = key;
+        (out ? ray_out : ray_in)(q, i, copy->band, id, &moved, &owner);
+        changed |= moved != key;
+        s->key[i / BLOCK][i % BLOCK] = moved;
+        s->owner[i / BLOCK][i % BLOCK] = owner;
+    }
+    free(intervals);
+    free(copy);
+    return changed;
+}
+
+static bool kill(struct rays_at *s)
+{
+    bool changed = lowest(s->key) < NEVER;
+    for (int y = 0; y < BLOCK; y++)
+        s->key[y] = v8_set(NEVER);
+    return changed;
+}
+
+static bool leaf_in(struct query *q, uint32_t index, struct rays_at *s)
+{
+    const struct block_leaf *b = tile_crossings(q->t, &q->t->leaves[index]);
+    int32_t id = (int32_t)(index << 1);
+    if (!b)
+        return kill(s);
+    if (b->mesh)
+        return leaf_slow(q, b, id, false, s);
+
+    const v8f *enter = (const v8f *)b->enter, *leave = (const v8f *)b->leave;
+    v8f band = v8_set(b->band), never = v8_set(NEVER);
+    v8i close = v8_seti(0);
+    for (int y = 0; y < BLOCK; y++) {
+        v8f c = s->key[y], m = v8_max(c, enter[y]);
+        v8i other = s->owner[y] != v8_seti(id);
+        close |= ((leave[y] - m <= band) & (leave[y] > c)) |
+                 ((v8_abs(enter[y] - c) <= band) & other & (c < never));
+    }
+    if (v8_bits(close))
+        return leaf_slow(q, b, id, false, s);
+    v8i changed = v8_seti(0);
+    for (int y = 0; y < BLOCK; y++) {
+        v8f c = s->key[y];
+        v8i in = leave[y] > c, ahead = (enter[y] > c) & in;
+        v8f moved = v8_select(in, v8_max(c, enter[y]), never);
+        changed |= moved != c;
+        s->key[y] = moved;
+        s->owner[y] = v8_selecti(ahead, v8_seti(id), s->owner[y]);
+    }
+    return v8_bits(changed);
+}
+
+static bool leaf_out(struct query *q, uint32_t index, float high, struct rays_at *s)
+{
+    const struct block_leaf *b = tile_crossings(q->t, &q->t->leaves[index]);
+    int32_t id = (int32_t)(index << 1);
+    if (!b || b->near - b->band > high)
+        return false;
+    if (b->mesh)
+        return leaf_slow(q, b, id, true, s);
+
+    const v8f *enter = (const v8f *)b->enter, *leave = (const v8f *)b->leave;
+    v8f band = v8_set(b->band);
+    v8i close = v8_seti(0), changed = v8_seti(0);
+    struct rays_at moved = *s;
+    for (int y = 0; y < BLOCK; y++) {
+        v8f c = s->key[y];
+        v8i inside = (enter[y] <= c) & (leave[y] > c);
+        v8i other = s->owner[y] != v8_seti(id | 1);
+        close |= ((v8_abs(enter[y] - c) <= band) | (v8_abs(leave[y] - c) <= band)) & other;
+        changed |= inside;
+        moved.key[y] = v8_select(inside, leave[y], c);
+        moved.owner[y] = v8_selecti(inside, v8_seti(id | 1), s->owner[y]);
+    }
+    if (v8_bits(close))
+        return leaf_slow(q, b, id, true, s);
+    if (!v8_bits(changed))
+        return false;
+    *s = moved;
+    return true;
+}
+
+// s = the nearer of s and other, ray by ray; of two within epsilon the later one owns the place.
+static void nearer(struct query *q, struct rays_at *s, const struct rays_at *other)
+{
+    v8f epsilon = v8_set(q->t->frame->epsilon);
+    for (int y = 0; y < BLOCK; y++) {
+        v8f a = s->key[y], b = other->key[y];
+        v8i b_first = b < a;
+        int tie = v8_bits((v8_abs(a - b) <= epsilon) & (b < v8_set(NEVER)));
+        v8i owner = v8_selecti(b_first, other->owner[y], s->owner[y]);
+        for (int x = 0; tie; x++, tie >>= 1)
+            if (tie & 1)
+                owner[x] = later(q, other->owner[y][x], s->owner[y][x]) ? other->owner[y][x]
+                                                                        : s->owner[y][x];
+        s->key[y] = v8_min(b, a);
+        s->owner[y] = owner;
+    }
+}
+
+// ---------------------------------------------------------------- inner nodes
+
+static bool move_in(struct query *q, uint32_t ref, struct rays_at *s);
+static bool move_out(struct query *q, uint32_t ref, struct rays_at *s);
+
+static bool differs(const struct rays_at *a, const struct rays_at *b)
+{
+    v8i d = v8_seti(0);
+    for (int y = 0; y < BLOCK; y++)
+        d |= a->key[y] != b->key[y];
+    return v8_bits(d);
+}
+
+static bool union_in(struct query *q, const struct query_node *n, struct rays_at *s)
+{
+    struct rays_at best, one;
+    float high = NEVER;
+    for (int y = 0; y < BLOCK; y++) {
+        best.key[y] = v8_set(NEVER);
+        best.owner[y] = v8_seti(-1);
+    }
+    for (uint32_t i = 0; i < n->count; i++) {
+        float near, far;
+        bounds(q, q->kids[n->first + i], &near, &far);
+        if (near > high)
+            continue;
+        one = *s;
+        move_in(q, q->kids[n->first + i], &one);
+        nearer(q, &best, &one);
+        high = -NEVER; // rays that are done (never) need no answer
+        for (int y = 0; y < BLOCK; y++) {
+            v8i alive = s->key[y] < v8_set(NEVER);
+            high = fmaxf(high, v8_highest(v8_select(alive, best.key[y], v8_set(-NEVER))));
+        }
+    }
+    bool changed = differs(&best, s);
+    for (int y = 0; y < BLOCK; y++) { // a ray that did not move keeps its owner
+        v8i moved = best.key[y] != s->key[y];
+        s->key[y] = best.key[y];
+        s->owner[y] = v8_selecti(moved | (s->owner[y] == v8_seti(-1)), best.owner[y], s->owner[y]);
+    }
+    return changed;
+}
+
+static bool union_out(struct query *q, const struct query_node *n, struct rays_at *s)
+{
+    bool changed = false, again = true;
+    float reach = 1000 * q->t->frame->epsilon;
+    while (again) {
+        again = false;
+        float high = highest(s->key), low = lowest(s->key);
+        for (uint32_t i = 0; i < n->count; i++) {
+            uint32_t ref = q->kids[n->first + i];
+            float near, far;
+            bounds(q, ref, &near, &far);
+            if (near > high + reach || far < low - reach)
+                continue;
+            bool moved =
+                ref & LEAF_BIT ? leaf_out(q, ref & ~LEAF_BIT, high, s) : move_out(q, ref, s);
+            if (moved) {
+                again = changed = true;
+                high = highest(s->key);
+                low = lowest(s->key);
+            }
+        }
+    }
+    return changed;
+}
+
+static bool intersection_in(struct query *q, const struct query_node *n, struct rays_at *s)
+{
+    bool changed = false;
+    uint32_t parts = n->count + (n->minus != NO_REF), settled = 0;
+    for (uint32_t i = 0; settled < parts; i = i + 1 < parts ? i + 1 : 0) {
+        bool moved = i < n->count ? move_in(q, q->kids[n->first + i], s) : move_out(q, n->minus, s);
+        settled = moved ? 1 : settled + 1;
+        changed |= moved;
+        if (!moved)
+            continue;
+        v8i beyond = v8_seti(0);
+        for (int y = 0; y < BLOCK; y++) {
+            v8i past = (s->key[y] > q->limit[y]) & (s->key[y] < v8_set(NEVER));
+            s->key[y] = v8_select(past, v8_set(NEVER), s->key[y]);
+            beyond |= s->key[y] < v8_set(NEVER);
+        }
+        if (!v8_bits(beyond))
+            break;
+    }
+    return changed;
+}
+
+static bool intersection_out(struct query *q, const struct query_node *n, struct rays_at *s)
+{
+    struct rays_at best = *s, one;
+    bool first = true;
+    for (uint32_t i = 0; i < n->count + (n->minus != NO_REF); i++) {
+        one = *s;
+        if (i < n->count)
+            move_out(q, q->kids[n->first + i], &one);
+        else
+            move_in(q, n->minus, &one);
+        if (first)
+            best = one;
+        else
+            nearer(q, &best, &one);
+        first = false;
+    }
+    bool changed = differs(&best, s);
+    for (int y = 0; y < BLOCK; y++) {
+        v8i moved = best.key[y] != s->key[y];
+        s->key[y] = best.key[y];
+        s->owner[y] = v8_selecti(moved, best.owner[y], s->owner[y]);
+    }
+    return changed;
+}
+
+static bool move_in(struct query *q, uint32_t ref, struct rays_at *s)
+{
+    if (ref & LEAF_BIT)
+        return leaf_in(q, ref & ~LEAF_BIT, s);
+    const struct query_node *n = &q->nodes[ref];
+    return n->op == EXPR_UNION ? union_in(q, n, s) : intersection_in(q, n, s);
+}
+
+static bool move_out(struct query *q, uint32_t ref, struct rays_at *s)
+{
+    if (ref & LEAF_BIT)
+        return leaf_out(q, ref & ~LEAF_BIT, highest(s->key), s);
+    const struct query_node *n = &q->nodes[ref];
+    return n->op == EXPR_UNION ? union_out(q, n, s) : intersection_out(q, n, s);
+}
+
+void query_block(struct query *q, struct rays_at *out)
+{
+    struct tile *t = q->t;
+    v8f start = v8_set(t->frame->start);
+    float high = NEVER;
+    for (int y = 0; y < BLOCK; y++) {
+        out->key[y] = v8_set(NEVER);
+        out->owner[y] = v8_seti(-1);
+    }
+    for (uint32_t i = 0; i < q->part_count; i++) {
+        const struct query_part *p = &q->parts[i];
+        if (p->near > high)
+            continue;
+        struct rays_at s;
+        for (int y = 0; y < BLOCK; y++) {
+            s.key[y] = start;
+            s.owner[y] = v8_seti(-1);
+            q->limit[y] = out->key[y] + v8_set(t->frame->epsilon);
+        }
+        if (p->query)
+            move_in(q, p->root, &s);
+        else
+            walk_first(t, p->first, p->count, &s);
+        nearer(q, out, &s);
+        v8f m = v8_set(-NEVER);
+        for (int y = 0; y < BLOCK; y++)
+            m = v8_max(m, out->key[y]);
+        high = v8_highest(m);
+    }
+}

@@ -1,0 +1,480 @@
+// tile.c - leaves of a tile and the crossings of convex leaves with its blocks.
+#include "render/cpu/tile.h"
+
+#include "base/mem.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Keys beyond this are "never"; keeps products with pixel offsets finite.
+#define KEY_LIMIT 1e30f
+#define INLINE    static inline __attribute__((always_inline))
+
+void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t memory)
+{
+    *t = (struct tile){.frame = f, .worker = worker};
+    uint32_t most = f->planes_most + 8;
+    size_t planes = memory / 8 / 20, slots = memory / 4 / sizeof(struct block_leaf);
+    planes = planes < 4 * (size_t)most ? 4 * (size_t)most : planes;
+    planes = planes > 1 << 18 ? (1 << 18 > 4 * most ? 1 << 18 : 4 * most) : planes;
+    slots = slots < 16 ? 16 : slots > 2048 ? 2048 : slots;
+    t->planes.size = (uint32_t)planes;
+    t->planes.a = mem_zalloc((planes + 8) * 4); // vectors may read past the last one
+    t->planes.b = mem_zalloc((planes + 8) * 4);
+    t->planes.c = mem_zalloc((planes + 8) * 4);
+    t->planes.steep = mem_aligned(32, planes * 4);
+    t->planes.face = mem_aligned(32, planes * 4);
+    t->slot_size = (uint32_t)slots;
+    t->slots = mem_aligned(64, slots * sizeof *t->slots);
+    t->index_size = most * 2 > 1 << 16 ? most * 2 : 1 << 16;
+    t->index = mem_alloc(t->index_size * sizeof *t->index);
+    for (int i = 0; i < 4; i++)
+        t->scratch[i] = mem_aligned(32, most * sizeof(float));
+    t->list.a = mem_aligned(32, most * sizeof(float));
+    t->list.b = mem_aligned(32, most * sizeof(float));
+    t->list.c = mem_aligned(32, most * sizeof(float));
+    t->list.id = mem_aligned(32, most * sizeof *t->list.id);
+    t->bytes = planes * 20 + slots * sizeof *t->slots + t->index_size * 4 + most * 32;
+}
+
+void tile_free(struct tile *t)
+{
+    free(t->planes.a);
+    free(t->planes.b);
+    free(t->planes.c);
+    free(t->planes.steep);
+    free(t->planes.face);
+    free(t->slots);
+    free(t->index);
+    for (int i = 0; i < 4; i++)
+        free(t->scratch[i]);
+    free(t->list.a);
+    free(t->list.b);
+    free(t->list.c);
+    free(t->list.id);
+    free(t->leaves);
+    free(t->mesh.crossings);
+    free(t->mesh.sorted);
+    free(t->mesh.intervals);
+}
+
+void tile_enter(struct tile *t, uint32_t tile_number)
+{
+    const struct frame *f = t->frame;
+    int tx = (int)(tile_number % (uint32_t)f->tiles_x),
+        ty = (int)(tile_number / (uint32_t)f->tiles_x);
+    t->x0 = tx * TILE;
+    t->y0 = ty * TILE;
+    t->x1 = t->x0 + TILE < f->rays->width ? t->x0 + TILE : f->rays->width;
+    t->y1 = t->y0 + TILE < f->rays->height ? t->y0 + TILE : f->rays->height;
+    t->cx = t->x0 + 0.5 * (TILE - 1);
+    t->cy = t->y0 + 0.5 * (TILE - 1);
+    t->leaf_count = 0;
+    t->planes.used = 0;
+    t->serial++;
+    t->slot_count = 0;
+    t->index_used = 0;
+
+    int field = t->y0 / f->field * f->fields_x + t->x0 / f->field;
+    float x0 = (float)t->x0, y0 = (float)t->y0, x1 = (float)(t->x1 - 1), y1 = (float)(t->y1 - 1);
+    for (uint32_t i = f->field_first[field]; i < f->field_first[field + 1]; i++) {
+        const struct frame_leaf *l = &f->leaves[f->field_leaf[i]];
+        if (l->x0 > x1 || l->x1 < x0 || l->y0 > y1 || l->y1 < y0)
+            continue;
+        array_reserve(&t->leaves, &t->leaf_capacity, t->leaf_count + 1);
+        t->leaves[t->leaf_count++] = (struct tile_leaf){.frame_leaf = f->field_leaf[i],
+                                                        .leaf = l->leaf,
+                                                        .part = l->part,
+                                                        .near = l->near,
+                                                        .far = l->far};
+    }
+}
+
+void tile_block(struct tile *t, int x, int y)
+{
+    t->bx = x;
+    t->by = y;
+    t->serial++;
+    t->slot_count = 0;
+    t->index_used = 0;
+    t->mesh.interval_count = 0;
+    for (int i = 0; i < BLOCK; i++) {
+        t->px[i] = (float)(x + i - t->cx);
+        t->py[i] = (float)(y + i - t->cy);
+    }
+}
+
+static float limited(double v)
+{
+    return v > KEY_LIMIT ? KEY_LIMIT : v < -KEY_LIMIT ? -KEY_LIMIT : (float)v;
+}
+
+// The rays of the tile in the coordinates of one leaf.
+struct local_rays {
+    struct vec3 eye, centre, direction, step_x, step_y;
+    double scale; // 1 / t0 in perspective
+};
+
+static struct local_rays local_rays(const struct tile *t, const struct leaf *leaf)
+{
+    const struct frame *f = t->frame;
+    const struct affine *m = &leaf->to_local;
+    struct vec3 o = rays_origin(f->rays, t->cx, t->cy), d = rays_direction(f->rays, t->cx, t->cy);
+    struct local_rays r;
+    double s = f->rays->orthographic ? 1 : f->t0;
+    r.eye = affine_point(m, o);
+    r.centre = affine_point(m, vec3_add(o, vec3_scale(d, f->t0)));
+    r.direction = affine_vector(m, d);
+    r.step_x = vec3_scale(affine_vector(m, f->rays->step_x), s);
+    r.step_y = vec3_scale(affine_vector(m, f->rays->step_y), s);
+    r.scale = f->rays->orthographic ? 1 : 1 / f->t0;
+    return r;
+}
+
+// Key planes of all faces of a convex leaf: scratch 0..2 = a, b, c; scratch 3 below 0: front. All
+// in double until the constant term is relative to the centre of the tile.
+static void make_planes(struct tile *t, const struct planes *p, const struct local_rays *r,
+                        bool orthographic)
+{
+    float *restrict a = t->scratch[0], *restrict b = t->scratch[1];
+    float *restrict c = t->scratch[2], *restrict front = t->scratch[3];
+    for (uint32_t i = 0; i < p->padded; i++) {
+        double nx = p->nx[i], ny = p->ny[i], nz = p->nz[i], d = p->d[i];
+        double num = d - (nx * r->centre.x + ny * r->centre.y + nz * r->centre.z);
+        double den = orthographic
+                         ? nx * r->direction.x + ny * r->direction.y + nz * r->direction.z
+                         : (d - (nx * r->eye.x + ny * r->eye.y + nz * r->eye.z)) * r->scale;
+        // A plane seen exactly edge-on: a front plane far in front when the ray is inside of it,
+        // far behind when it is outside. The eye exactly on a plane: likewise, as a back plane.
+        double tiny = orthographic ? -1e-25 : 1e-25;
+        den = den > -1e-25 && den < 1e-25 ? tiny : den;
+        double inv = 1 / den;
+        a[i] = limited(num * inv);
+        b[i] = limited(-(nx * r->step_x.x + ny * r->step_x.y + nz * r->step_x.z) * inv);
+        c[i] = limited(-(nx * r->step_y.x + ny * r->step_y.y + nz * r->step_y.z) * inv);
+        front[i] = den < 0 ? -1.0f : 1.0f;
+    }
+}
+
+static void list_pad(struct plane_list *l)
+{
+    for (uint32_t i = l->n; i % 8; i++) {
+        l->a[i] = -FLT_MAX;
+        l->b[i] = l->c[i] = 0;
+    }
+}
+
+INLINE v8f load(const float *p)
+{
+    v8f v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+// Where a list is compressed from: arrays with a sign, and lanes to be left out.
+struct plane_source {
+    const float *a, *b, *c;
+    const float *side; // takes lanes in which side * sign < 0; NULL takes all
+    uint32_t id, n;    // number of the first plane
+    float sign;        // 1 front planes, -1 back planes
+};
+
+// The plane whose key at (x, y) is the largest; its number in the list or UINT32_MAX.
+INLINE uint32_t largest_at(const struct plane_source *s, float x, float y)
+{
+    v8f best = v8_set(-FLT_MAX), sign = v8_set(s->sign);
+    v8i lane = {0, 1, 2, 3, 4, 5, 6, 7}, found = v8_seti(-1);
+    for (uint32_t i = 0; i < s->n; i += 8) {
+        v8f v = sign * ((load(s->a + i) + load(s->b + i) * x) + load(s->c + i) * y);
+        v8i better = (v > best) & (lane < v8_seti((int32_t)s->n));
+        if (s->side)
+            better &= load(s->side + i) * sign < v8_set(0);
+        best = v8_select(better, v, best);
+        found = v8_selecti(better, lane, found);
+        lane += v8_seti(8);
+    }
+    uint32_t at = UINT32_MAX;
+    float most = -FLT_MAX;
+    for (int i = 0; i < 8; i++)
+        if (found[i] >= 0 && best[i] > most) {
+            most = best[i];
+            at = (uint32_t)found[i];
+        }
+    return at;
+}
+
+// Copies to `out` the planes of the source that plane q does not hide: q hides p when its key is
+// larger in the whole square of half-width h around (x, y), with a margin for rounding. `out` may
+// be the source.
+INLINE void list_take(struct plane_list *out, const struct plane_source *s, const uint32_t *ids,
+                      uint32_t q, float x, float y, float h)
+{
+    v8f sign = v8_set(s->sign), rounding = v8_set(4e-7f);
+    v8f qa = v8_set(s->a[q]), qb = v8_set(s->b[q]), qc = v8_set(s->c[q]);
+    v8f q_centre = (qa + qb * x) + qc * y;
+    v8f slack = rounding * (v8_abs(q_centre) + v8_abs(qa) + (v8_abs(qb) + v8_abs(qc)) * h);
+    v8i lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < s->n; i += 8) {
+        v8f a = load(s->a + i), b = load(s->b + i), c = load(s->c + i);
+        v8f centre = (a + b * x) + c * y;
+        v8f ahead = sign * (centre - q_centre) + (v8_abs(b - qb) + v8_abs(c - qc)) * h +
+                    rounding * (v8_abs(centre) + v8_abs(a) + (v8_abs(b) + v8_abs(c)) * h);
+        v8i keep = (ahead > -slack) & (lane < v8_seti((int32_t)s->n));
+        if (s->side)
+            keep &= load(s->side + i) * sign < v8_set(0);
+        a *= sign;
+        b *= sign;
+        c *= sign;
+        for (int bits = v8_bits(keep); bits; bits &= bits - 1) {
+            int k = __builtin_ctz((unsigned)bits);
+            out->a[kept] = a[k];
+            out->b[kept] = b[k];
+            out->c[kept] = c[k];
+            out->id[kept++] = ids ? ids[i + (uint32_t)k] : s->id + i + (uint32_t)k;
+        }
+        lane += v8_seti(8);
+    }
+    out->n = kept;
+    list_pad(out);
+}
+
+// The planes of the source that may have the largest key somewhere in the square.
+INLINE void cull_planes(struct plane_list *out, const struct plane_source *s, float x, float y,
+                        float h)
+{
+    const float cx[5] = {0, -1, 1, -1, 1}, cy[5] = {0, -1, -1, 1, 1};
+    uint32_t q = largest_at(s, x, y);
+    if (q == UINT32_MAX) {
+        out->n = 0;
+        return;
+    }
+    list_take(out, s, NULL, q, x, y, h);
+    struct plane_source rest = {.a = out->a, .b = out->b, .c = out->c, .sign = 1};
+    for (int k = 1; k < 5 && out->n > 2; k++) {
+        rest.n = out->n;
+        q = largest_at(&rest, x + h * cx[k], y + h * cy[k]);
+        list_take(out, &rest, out->id, q, x, y, h);
+    }
+}
+
+// Culls the planes of one side over the tile and appends them to the pool. Returns the bound of the
+// key: the entry is nowhere below it (front), the exit nowhere above it (back).
+static float keep_side(struct tile *t, const struct leaf *leaf, const struct local_rays *r,
+                       float sign, uint32_t *count)
+{
+    struct plane_pool *pool = &t->planes;
+    const struct planes *planes = &leaf->solid->planes;
+    struct plane_source source = {t->scratch[0], t->scratch[1], t->scratch[2], t->scratch[3], 0,
+                                  planes->count, sign};
+    struct plane_list list = t->list;
+    const float h = 0.5f * TILE;
+    float bound = -FLT_MAX;
+
+    cull_planes(&list, &source, 0, 0, h);
+    for (uint32_t i = 0; i < list.n; i++) {
+        uint32_t p = list.id[i], at = pool->used++;
+        struct vec3 normal = {planes->nx[p], planes->ny[p], planes->nz[p]};
+        double length = vec3_length(affine_normal(&leaf->to_local, normal));
+        pool->a[at] = sign * list.a[i];
+        pool->b[at] = sign * list.b[i];
+        pool->c[at] = sign * list.c[i];
+        pool->face[at] = p;
+        pool->steep[at] = (float)(fabs(vec3_dot(normal, r->direction)) / length);
+        float low = list.a[i] - (fabsf(list.b[i]) + fabsf(list.c[i])) * h;
+        bound = low > bound ? low : bound;
+    }
+    *count = list.n;
+    return list.n ? sign * bound : sign > 0 ? t->frame->start : t->frame->end;
+}
+
+static void forget_planes(struct tile *t)
+{
+    for (uint32_t i = 0; i < t->leaf_count; i++)
+        if (t->leaves[i].state == LEAF_READY)
+            t->leaves[i].state = LEAF_NEW;
+    t->planes.used = 0;
+}
+
+static void prepare(struct tile *t, struct tile_leaf *l)
+{
+    const struct frame *f = t->frame;
+    const struct leaf *leaf = &f->body->leaves[l->leaf];
+    const struct planes *p = &leaf->solid->planes;
+
+    if (!leaf->solid->convex) {
+        l->state = LEAF_READY;
+        return;
+    }
+    if (t->planes.size - t->planes.used < p->padded)
+        forget_planes(t);
+    struct local_rays r = local_rays(t, leaf);
+    make_planes(t, p, &r, f->rays->orthographic);
+
+    l->plane = t->planes.used;
+    float near = keep_side(t, leaf, &r, 1, &l->front);
+    float far = keep_side(t, leaf, &r, -1, &l->back);
+    l->near = near > l->near ? near : l->near;
+    l->far = far < l->far ? far : l->far;
+    l->state = l->near < l->far ? LEAF_READY : LEAF_ABSENT;
+}
+
+// Smallest steepness of the planes that remain: bounds how far apart on the ray two faces can be
+// that are within epsilon of each other.
+static float find_band(const struct tile *t, const struct block_leaf *out)
+{
+    const struct frame *f = t->frame;
+    float steep = FLT_MAX;
+    for (uint32_t i = 0; i < out->front + out->back; i++)
+        steep = fminf(steep, t->planes.steep[t->index[out->planes + i]]);
+    // d key / d t = (t0 / t)^2 = (1 - key / t0)^2 is largest at the near end
+    float growth = 1;
+    if (!f->rays->orthographic) {
+        growth = 1 - out->near / (float)f->t0;
+        growth *= growth;
+    }
+    return 1.01f * f->epsilon * growth / fmaxf(steep, STEEP_LEAST);
+}
+
+static const struct block_leaf *convex_block(struct tile *t, struct tile_leaf *l,
+                                             struct block_leaf *out)
+{
+    const struct plane_pool *pool = &t->planes;
+    const float h = 0.5f * BLOCK;
+    float mx = (t->px[3] + t->px[4]) * 0.5f, my = (t->py[3] + t->py[4]) * 0.5f;
+    uint32_t *index = t->index + t->index_used;
+    struct plane_source source = {.a = pool->a + l->plane,
+                                  .b = pool->b + l->plane,
+                                  .c = pool->c + l->plane,
+                                  .id = l->plane,
+                                  .n = l->front,
+                                  .sign = 1};
+    struct plane_list list = t->list;
+    cull_planes(&list, &source, mx, my, h);
+    uint32_t front = list.n;
+    memcpy(index, list.id, front * sizeof *index);
+    source.a += l->front;
+    source.b += l->front;
+    source.c += l->front;
+    source.id += l->front;
+    source.n = l->back;
+    source.sign = -1;
+    cull_planes(&list, &source, mx, my, h);
+    uint32_t back = list.n;
+    memcpy(index + front, list.id, back * sizeof *index);
+
+    v8f enter[BLOCK], leave[BLOCK];
+    for (int y = 0; y < BLOCK; y++) {
+        enter[y] = v8_set(t->frame->start);
+        leave[y] = v8_set(t->frame->end);
+    }
+    for (uint32_t i = 0; i < front; i++) {
+        uint32_t p = index[i];
+        v8f row = pool->a[p] + pool->b[p] * t->px;
+        float c = pool->c[p];
+        for (int y = 0; y < BLOCK; y++)
+            enter[y] = v8_max(row + c * t->py[y], enter[y]);
+    }
+    for (uint32_t i = front; i < front + back; i++) {
+        uint32_t p = index[i];
+        v8f row = pool->a[p] + pool->b[p] * t->px;
+        float c = pool->c[p];
+        for (int y = 0; y < BLOCK; y++)
+            leave[y] = v8_min(row + c * t->py[y], leave[y]);
+    }
+    v8f near = v8_set(FLT_MAX), far = v8_set(-FLT_MAX);
+    for (int y = 0; y < BLOCK; y++) {
+        v8i hit = enter[y] < leave[y];
+        enter[y] = v8_select(hit, enter[y], v8_set(FLT_MAX));
+        leave[y] = v8_select(hit, leave[y], v8_set(-FLT_MAX));
+        near = v8_min(near, enter[y]);
+        far = v8_max(far, leave[y]);
+        *(v8f *)&out->enter[y * BLOCK] = enter[y];
+        *(v8f *)&out->leave[y * BLOCK] = leave[y];
+    }
+    out->near = v8_lowest(near);
+    out->far = v8_highest(far);
+    if (!(out->near < out->far))
+        return NULL;
+    out->mesh = false;
+    out->front = front;
+    out->back = back;
+    out->planes = t->index_used;
+    t->index_used += front + back;
+    out->band = find_band(t, out);
+    return out;
+}
+
+const struct block_leaf *tile_crossings(struct tile *t, struct tile_leaf *l)
+{
+    if (l->state == LEAF_ABSENT)
+        return NULL;
+    if (l->serial == t->serial && l->state == LEAF_READY)
+        return l->slot == SLOT_ABSENT ? NULL : &t->slots[l->slot];
+    if (l->state == LEAF_NEW) {
+        prepare(t, l);
+        if (l->state == LEAF_ABSENT)
+            return NULL;
+    }
+    if (t->slot_count == t->slot_size || t->index_size - t->index_used < l->front + l->back) {
+        t->slot_count = 0; // forget the crossings of this block
+        t->index_used = 0;
+        t->mesh.interval_count = 0;
+        t->serial++;
+    }
+    struct block_leaf *out = &t->slots[t->slot_count];
+    bool convex = t->frame->body->leaves[l->leaf].solid->convex;
+    const struct block_leaf *b = convex ? convex_block(t, l, out) : tile_mesh_block(t, l, out);
+    l->serial = t->serial;
+    l->slot = b ? t->slot_count++ : SLOT_ABSENT;
+    l->band = b ? b->band : 0;
+    return b;
+}
+
+uint32_t tile_face(struct tile *t, struct tile_leaf *l, int i, bool leaving, float key,
+                   float *steep)
+{
+    const struct block_leaf *b = tile_crossings(t, l);
+    *steep = 1;
+    if (!b || key <= t->frame->start)
+        return SURFACE_CAP;
+    if (b->mesh) {
+        for (uint32_t k = b->first[i]; k < b->first[i + 1]; k++) {
+            const struct mesh_interval *m = &t->mesh.intervals[b->interval + k];
+            if ((leaving ? m->leave : m->enter) == key) {
+                *steep = leaving ? m->leave_steep : m->enter_steep;
+                return leaving ? m->leave_face : m->enter_face;
+            }
+        }
+        return SURFACE_CAP;
+    }
+    const struct plane_pool *pool = &t->planes;
+    uint32_t from = leaving ? b->front : 0, to = leaving ? b->front + b->back : b->front;
+    float x = t->px[i % BLOCK], y = t->py[i / BLOCK], nearest = FLT_MAX;
+    uint32_t found = UINT32_MAX;
+    for (uint32_t k = from; k < to; k++) {
+        uint32_t p = t->index[b->planes + k];
+        float away = fabsf((pool->a[p] + pool->b[p] * x) + pool->c[p] * y - key);
+        if (away < nearest) {
+            nearest = away;
+            found = p;
+        }
+    }
+    if (found == UINT32_MAX)
+        return SURFACE_CAP;
+    *steep = pool->steep[found];
+    return pool->face[found];
+}
+
+double tile_thickness(const struct tile *t, float from, float to, float steep)
+{
+    const struct frame *f = t->frame;
+    steep = fmaxf(steep, STEEP_LEAST);
+    if (f->rays->orthographic)
+        return ((double)to - from) * steep;
+    double t0 = f->t0, a = t0 - from, b = t0 - to;
+    if (!(b > 0))
+        return INFINITY;
+    return t0 * t0 * ((double)to - from) / (a * b) * steep;
+}

@@ -1,0 +1,153 @@
+// tile.h - one tile of the picture: its leaves, their planes and triangles, their crossings per
+// block.
+//
+// The files that include this are compiled once per instruction set; ISA names the variant. A
+// worker owns one struct tile and uses it for tile after tile. All pools are of fixed size: what
+// does not fit is forgotten and made again when it is asked for, so memory is bounded whatever the
+// scene.
+#pragma once
+#include "base/simd.h"
+#include "render/cpu/frame.h"
+
+#ifndef ISA
+#define ISA baseline
+#endif
+#define ISA_PASTE_(a, b) a##_##b
+#define ISA_PASTE(a, b)  ISA_PASTE_(a, b)
+#define tile_init        ISA_PASTE(tile_init, ISA)
+#define tile_free        ISA_PASTE(tile_free, ISA)
+#define tile_enter       ISA_PASTE(tile_enter, ISA)
+#define tile_block       ISA_PASTE(tile_block, ISA)
+#define tile_crossings   ISA_PASTE(tile_crossings, ISA)
+#define tile_face        ISA_PASTE(tile_face, ISA)
+#define tile_thickness   ISA_PASTE(tile_thickness, ISA)
+#define tile_mesh_block  ISA_PASTE(tile_mesh_block, ISA)
+
+// Steepness below this counts as this: it bounds how far along a ray faces can be within epsilon.
+#define STEEP_LEAST 1e-3f
+
+enum leaf_state { LEAF_NEW, LEAF_READY, LEAF_ABSENT };
+
+// A leaf in the tile. Front planes bound the entry from below, back planes the exit from above.
+struct tile_leaf {
+    uint32_t frame_leaf; // index in frame.leaves
+    uint32_t leaf;       // number in the body
+    uint32_t part;
+    // Steepness below this counts as this: it bounds how far along a ray faces can be within
+    // epsilon.
+#define STEEP_LEAST 1e-3f
+
+    enum leaf_state state;
+    uint32_t plane, front, back; // in the plane pool: front planes, then back planes
+    uint32_t serial;             // of the block for which `slot` holds
+    uint32_t slot;               // in the block pool; SLOT_ABSENT: no ray of the block meets it
+    float band;                  // of the newest block it was in, see block_leaf
+    float near, far;             // keys that bound it
+};
+#define SLOT_ABSENT UINT32_MAX
+
+// Planes of tile leaves: key(x, y) = a + b x + c y, pixels counted from the centre of the tile.
+struct plane_pool {
+    float *a, *b, *c;
+    float *steep; // |n . direction| at the centre of the tile: thickness across the face per depth
+    uint32_t *face;
+    uint32_t used, size;
+};
+
+// Planes as key functions, negated for exits, so that in a list the largest key always counts.
+// Padded with planes that are nowhere the largest.
+struct plane_list {
+    float *a, *b, *c;
+    uint32_t *id;
+    uint32_t n;
+};
+
+// One interval of a mesh on a ray. Faces and steepness as for planes.
+struct mesh_interval {
+    float enter, leave;
+    uint32_t enter_face, leave_face;
+    float enter_steep, leave_steep;
+};
+
+// The crossings of one leaf with the rays of one block. Convex leaves have one interval a ray, with
+// enter > leave where the ray misses; meshes have intervals[first[i] .. first[i + 1]) for ray i.
+struct block_leaf {
+    _Alignas(32) float enter[BLOCK_PIXELS], leave[BLOCK_PIXELS];
+    float near, far; // over all rays that hit
+    float band;      // keys closer than this may be closer than epsilon across this leaf's faces
+    bool mesh;
+    uint32_t front, back; // planes that remain in this block, see tile_face
+    uint32_t planes;      // in the index pool: front then back, numbers in the plane pool
+    uint32_t first[BLOCK_PIXELS + 1];
+    uint32_t interval; // in the interval pool of the tile: intervals[interval + first[i]]
+};
+
+// A crossing of a ray of the block with a triangle.
+struct mesh_crossing {
+    float key, steep;
+    uint32_t face;
+    int16_t sign; // 1 enters, -1 leaves
+    uint16_t ray;
+};
+
+struct mesh_pool {
+    struct mesh_crossing *crossings, *sorted;
+    uint32_t crossing_count, crossing_capacity, sorted_capacity;
+    struct mesh_interval *intervals; // of all mesh leaves of the block
+    uint32_t interval_count, interval_capacity;
+};
+
+struct tile {
+    const struct frame *frame;
+    uint32_t worker;
+    int x0, y0, x1, y1; // pixels [x0, x1) x [y0, y1)
+    double cx, cy;      // the centre, in pixel coordinates
+
+    struct tile_leaf *leaves;
+    uint32_t leaf_count, leaf_capacity;
+    struct plane_pool planes;
+
+    // the current block
+    uint32_t serial;
+    int bx, by;      // its first pixel
+    v8f px;          // pixel x of the 8 columns from the centre of the tile
+    float py[BLOCK]; // pixel y of the 8 rows
+    struct block_leaf *slots;
+    uint32_t slot_count, slot_size;
+    uint32_t *index; // plane numbers of block leaves
+    uint32_t index_used, index_size;
+
+    struct mesh_pool mesh;
+    float *scratch[4];      // planes_most floats each
+    struct plane_list list; // room for planes_most
+
+    struct query *query;
+    struct walk_lists *lists;
+    uint64_t fragments, misses, open_rays;
+    size_t bytes;
+};
+
+void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t memory);
+void tile_free(struct tile *t);
+
+// Moves on to a tile: finds its leaves (parts front to back). `visible` limits them to one part or
+// none.
+void tile_enter(struct tile *t, uint32_t tile_number);
+// Moves on to the block at pixel (x, y) of the tile.
+void tile_block(struct tile *t, int x, int y);
+
+// The crossings of a leaf with the current block; NULL when no ray meets it. Valid until the next
+// call.
+const struct block_leaf *tile_crossings(struct tile *t, struct tile_leaf *l);
+
+// Which face the ray of pixel i enters (or leaves) a leaf by at `key`, and how steep the ray meets
+// it. SURFACE_CAP when the key is the start of the ray.
+uint32_t tile_face(struct tile *t, struct tile_leaf *l, int i, bool leaving, float key,
+                   float *steep);
+
+// Thickness in mm across the faces of the interval between two keys on a ray of this tile.
+double tile_thickness(const struct tile *t, float from, float to, float steep);
+
+// mesh.c: the crossings of a mesh with the current block, or NULL.
+const struct block_leaf *tile_mesh_block(struct tile *t, struct tile_leaf *l,
+                                         struct block_leaf *out);

@@ -1,0 +1,586 @@
+// walk.c - the classification walk over the sorted crossings of each ray.
+#include "render/cpu/walk.h"
+
+#include "base/mem.h"
+#include "render/cpu/query.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+// A crossing: the key as an ordered number in the high half, tile leaf * 2 + leaving in the low
+// half, so that sorting 64-bit numbers sorts crossings.
+typedef uint64_t crossing;
+
+struct walk_lists {
+    crossing *items, *spare;
+    uint32_t size; // of both
+    uint32_t first[BLOCK_PIXELS + 1];
+
+    // evaluation of unknown combinations
+    uint32_t *count_of; // per class, all 0 between uses
+    struct member *members;
+    uint32_t member_count, member_capacity;
+    struct member *base; // combination at the start of the list being walked
+    uint32_t base_count, base_capacity;
+    uint64_t base_key;
+
+    // the array method
+    int32_t *inside; // per leaf of the body
+    bool *solid;     // per node of the expression
+
+    struct span *spans;
+    uint32_t span_count, span_capacity;
+};
+
+struct walk_lists *walk_new(struct tile *t, size_t memory)
+{
+    const struct body *b = t->frame->body;
+    struct walk_lists *w = mem_zalloc(sizeof *w);
+    size_t items = memory / 4 / sizeof(crossing);
+    w->size = (uint32_t)(items < 256 ? 256 : items > 1 << 20 ? 1 << 20 : items);
+    w->items = mem_alloc(w->size * sizeof *w->items);
+    w->spare = mem_alloc(w->size * sizeof *w->spare);
+    w->count_of = mem_zalloc((b->sharing.class_count + 1) * sizeof *w->count_of);
+    w->inside = mem_zalloc((b->leaf_count + 1) * sizeof *w->inside);
+    w->solid = mem_zalloc(b->expr.node_count + 1);
+    t->bytes += w->size * 2 * sizeof(crossing) + b->sharing.class_count * 4 + b->leaf_count * 4 +
+                b->expr.node_count;
+    return w;
+}
+
+void walk_delete(struct walk_lists *w)
+{
+    if (!w)
+        return;
+    free(w->items);
+    free(w->spare);
+    free(w->count_of);
+    free(w->members);
+    free(w->base);
+    free(w->inside);
+    free(w->solid);
+    free(w->spans);
+    free(w);
+}
+
+static crossing crossing_make(float key, uint32_t leaf, bool leaving)
+{
+    uint32_t bits;
+    memcpy(&bits, &key, 4);
+    bits = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+    return (uint64_t)bits << 32 | leaf << 1 | leaving;
+}
+
+static float crossing_key(crossing c)
+{
+    uint32_t bits = (uint32_t)(c >> 32);
+    float key;
+    bits = bits & 0x80000000u ? bits & 0x7fffffffu : ~bits;
+    memcpy(&key, &bits, 4);
+    return key;
+}
+
+static void sort(crossing *items, crossing *spare, uint32_t n)
+{
+    enum { RUN = 24 };
+    for (uint32_t from = 0; from < n; from += RUN) {
+        uint32_t to = from + RUN < n ? from + RUN : n;
+        for (uint32_t i = from + 1; i < to; i++) {
+            crossing c = items[i];
+            uint32_t j = i;
+            for (; j > from && items[j - 1] > c; j--)
+                items[j] = items[j - 1];
+            items[j] = c;
+        }
+    }
+    for (uint32_t run = RUN; run < n; run *= 2) {
+        for (uint32_t from = 0; from < n; from += 2 * run) {
+            uint32_t middle = from + run < n ? from + run : n;
+            uint32_t to = from + 2 * run < n ? from + 2 * run : n;
+            if (middle >= to || items[middle - 1] <= items[middle])
+                continue;
+            uint32_t i = 0, size = middle - from, j = middle, out = from;
+            memcpy(spare, items + from, size * sizeof *spare);
+            while (i < size)
+                items[out++] = j < to && items[j] < spare[i] ? items[j++] : spare[i++];
+        }
+    }
+}
+
+// ---------------------------------------------------------------- is a combination solid?
+
+static int by_class(const void *a, const void *b)
+{
+    uint32_t p = ((const struct member *)a)->class_id, q = ((const struct member *)b)->class_id;
+    return p < q ? -1 : p > q;
+}
+
+// The combination of `base` and the crossings items[0 .. n), sorted by class, into w->members.
+static void replay(struct tile *t, const crossing *items, uint32_t n)
+{
+    struct walk_lists *w = t->lists;
+    const uint32_t *class_of = t->frame->body->sharing.class_of_leaf;
+    array_reserve(&w->members, &w->member_capacity, w->base_count + n + 1);
+    w->member_count = 0;
+    for (uint32_t i = 0; i < w->base_count; i++) {
+        w->count_of[w->base[i].class_id] = w->base[i].count;
+        w->members[w->member_count++].class_id = w->base[i].class_id;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t id = (uint32_t)items[i], c = class_of[t->leaves[id >> 1].leaf];
+        if (!(id & 1) && !w->count_of[c])
+            w->members[w->member_count++].class_id = c; // may come twice: the second is dropped
+        w->count_of[c] += id & 1 ? UINT32_MAX : 1;
+    }
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < w->member_count; i++) {
+        uint32_t c = w->members[i].class_id;
+        if (w->count_of[c])
+            w->members[kept++] = (struct member){c, w->count_of[c]};
+        w->count_of[c] = 0;
+    }
+    w->member_count = kept;
+    qsort(w->members, kept, sizeof *w->members, by_class);
+}
+
+static bool solid_hash(struct tile *t, uint64_t key, const crossing *items, uint32_t n)
+{
+    struct discovery *d = t->frame->body->table;
+    int state = discovery_lookup(d, key);
+    if (state == SET_UNKNOWN) {
+        replay(t, items, n);
+        state = discovery_resolve(d, key, t->lists->members, t->lists->member_count);
+        t->misses++;
+    }
+    return state == SET_SOLID;
+}
+
+// Lefebvre 2013: a counter per primitive, the whole expression for each interval. For the bench.
+static bool solid_array(struct tile *t)
+{
+    const struct expr *e = &t->frame->body->expr;
+    bool *solid = t->lists->solid;
+    for (uint32_t i = 0; i < e->node_count; i++) {
+        const struct expr_node *n = &e->nodes[i];
+        if (n->op == EXPR_LEAF) {
+            solid[i] = t->lists->inside[n->leaf] > 0;
+            continue;
+        }
+        bool any = n->op == EXPR_UNION, value = !any;
+        for (uint32_t k = 0; k < n->count && value != any; k++)
+            value = solid[e->kids[n->first + k]];
+        solid[i] = value && !(n->minus != EXPR_NONE && solid[n->minus]);
+    }
+    return e->node_count && solid[e->root];
+}
+
+// ---------------------------------------------------------------- one ray
+
+// A crossing in its place: what the walk needs to know of a face.
+struct boundary {
+    float key;
+    uint32_t leaf; // of the body; SURFACE_NONE at the ends of the ray
+    uint32_t face;
+};
+
+struct ray_walk {
+    struct tile *t;
+    int ray;
+    const crossing *items;
+    uint32_t count;
+    bool first_only;
+    bool array;
+    // carried from list to list of one ray
+    uint64_t key;
+    bool solid;
+    struct boundary entered;
+    float first_key; // answers of first_only
+    int32_t first_owner;
+};
+
+static float steep_at(struct ray_walk *r, crossing c)
+{
+    float steep;
+    uint32_t id = (uint32_t)c;
+    tile_face(r->t, &r->t->leaves[id >> 1], r->ray, id & 1, crossing_key(c), &steep);
+    return steep;
+}
+
+// Is the interval between two crossings thick enough to exist?
+static bool thick(struct ray_walk *r, crossing a, crossing b)
+{
+    struct tile *t = r->t;
+    float from = crossing_key(a), to = crossing_key(b);
+    if (from >= to)
+        return false;
+    float band_a = t->leaves[(uint32_t)a >> 1].band, band_b = t->leaves[(uint32_t)b >> 1].band;
+    if (to - from > fminf(band_a, band_b))
+        return true;
+    return tile_thickness(t, from, to, fmaxf(steep_at(r, a), steep_at(r, b))) >=
+           t->frame->settings->epsilon;
+}
+
+// Of the crossings at one place, the one whose surface shows there: an entry of an added leaf or
+// the end of a subtracted one (the other way round where the solid ends), the latest of the file.
+static crossing owner_of(struct ray_walk *r, uint32_t from, uint32_t to, bool entering)
+{
+    const struct body *b = r->t->frame->body;
+    crossing best = r->items[from];
+    int64_t best_rank = -1;
+    for (uint32_t i = from; i < to; i++) {
+        uint32_t id = (uint32_t)r->items[i], leaf = r->t->leaves[id >> 1].leaf;
+        bool fits = ((id & 1) != (uint32_t)b->leaves[leaf].subtracted) != entering;
+        int64_t rank = (fits ? (int64_t)1 << 32 : 0) + leaf;
+        if (rank > best_rank) {
+            best_rank = rank;
+            best = r->items[i];
+        }
+    }
+    return best;
+}
+
+static struct boundary boundary_at(struct ray_walk *r, crossing c)
+{
+    float steep;
+    uint32_t id = (uint32_t)c;
+    struct tile_leaf *l = &r->t->leaves[id >> 1];
+    float key = crossing_key(c);
+    bool end = id & 1 && key >= r->t->frame->end;
+    return (struct boundary){.key = key,
+                             .leaf = end ? SURFACE_NONE : l->leaf,
+                             .face = tile_face(r->t, l, r->ray, id & 1, key, &steep)};
+}
+
+static float span_depth(const struct tile *t, float key)
+{
+    return (float)(frame_depth(t->frame, key) - t->frame->rays->reference);
+}
+
+static void add_span(struct tile *t, struct boundary enter, struct boundary leave)
+{
+    struct walk_lists *w = t->lists;
+    array_reserve(&w->spans, &w->span_capacity, w->span_count + 1);
+    w->spans[w->span_count++] = (struct span){.enter = span_depth(t, enter.key),
+                                              .leave = span_depth(t, leave.key),
+                                              .enter_leaf = enter.leaf,
+                                              .enter_face = enter.face,
+                                              .leave_leaf = leave.leaf,
+                                              .leave_face = leave.face};
+}
+
+// The state changed at the cluster of crossings [from, to). True: the walk is over.
+static bool change(struct ray_walk *r, uint32_t from, uint32_t to, bool solid)
+{
+    crossing c = owner_of(r, from, to, solid);
+    r->solid = solid;
+    if (r->first_only) {
+        r->first_key = crossing_key(c);
+        r->first_owner = (int32_t)(uint32_t)c;
+        return true;
+    }
+    if (solid)
+        r->entered = boundary_at(r, c);
+    else
+        add_span(r->t, r->entered, boundary_at(r, c));
+    return false;
+}
+
+static bool is_solid(struct ray_walk *r, uint32_t n)
+{
+    return r->array ? solid_array(r->t) : solid_hash(r->t, r->key, r->items, n);
+}
+
+static void step(struct ray_walk *r, crossing c)
+{
+    const struct body *b = r->t->frame->body;
+    uint32_t id = (uint32_t)c, leaf = r->t->leaves[id >> 1].leaf;
+    if (r->array) {
+        r->t->lists->inside[leaf] += id & 1 ? -1 : 1;
+        return;
+    }
+    uint64_t value = b->sharing.classes[b->sharing.class_of_leaf[leaf]].value;
+    r->key += id & 1 ? (uint64_t)0 - value : value;
+}
+
+// Walks a sorted list. Returns the number of crossings taken: with `more` to come, the last cluster
+// is left for the next list. False answers through *over.
+static uint32_t walk_list(struct ray_walk *r, bool more, bool *over)
+{
+    uint32_t cluster = 0, i = 0;
+    *over = false;
+    for (; i < r->count; i++) {
+        if (i > cluster && thick(r, r->items[cluster], r->items[i])) {
+            bool solid = is_solid(r, i);
+            if (solid != r->solid && change(r, cluster, i, solid)) {
+                *over = true;
+                return i;
+            }
+            cluster = i;
+        }
+        step(r, r->items[i]);
+    }
+    if (more)
+        return cluster;
+    if (r->count) {
+        bool solid = is_solid(r, r->count);
+        if (solid != r->solid && change(r, cluster, r->count, solid))
+            *over = true;
+    }
+    return r->count;
+}
+
+static void ray_begin(struct ray_walk *r, struct tile *t, int ray, bool first_only)
+{
+    *r = (struct ray_walk){.t = t,
+                           .ray = ray,
+                           .first_only = first_only,
+                           .array = t->frame->settings->walk == WALK_ARRAY,
+                           .first_key = FLT_MAX,
+                           .first_owner = -1};
+    t->lists->base_count = 0;
+    if (r->array)
+        memset(t->lists->inside, 0, t->frame->body->leaf_count * sizeof *t->lists->inside);
+}
+
+// A solid that reaches the end of the ray.
+static void ray_end(struct ray_walk *r)
+{
+    if (r->solid && !r->first_only)
+        add_span(r->t, r->entered, (struct boundary){r->t->frame->end, SURFACE_NONE, SURFACE_CAP});
+}
+
+// ---------------------------------------------------------------- lists of a block
+
+struct leaf_range {
+    uint32_t first, count;
+};
+
+// Number of crossings of each ray [from, to).
+static uint64_t count_crossings(struct tile *t, struct leaf_range leaves, uint32_t *counts)
+{
+    uint64_t sum = 0;
+    memset(counts, 0, BLOCK_PIXELS * sizeof *counts);
+    for (uint32_t i = 0; i < leaves.count; i++) {
+        const struct block_leaf *b = tile_crossings(t, &t->leaves[leaves.first + i]);
+        if (!b)
+            continue;
+        for (int p = 0; p < BLOCK_PIXELS; p++)
+            counts[p] +=
+                b->mesh ? 2 * (b->first[p + 1] - b->first[p]) : 2 * (b->enter[p] < b->leave[p]);
+    }
+    for (int p = 0; p < BLOCK_PIXELS; p++)
+        sum += counts[p];
+    return sum;
+}
+
+// Writes the crossings of rays [from, to) to their places next[p - from].
+static void fill_lists(struct tile *t, struct leaf_range leaves, int from, int to, uint32_t *next)
+{
+    crossing *items = t->lists->items;
+    for (uint32_t i = 0; i < leaves.count; i++) {
+        uint32_t l = leaves.first + i;
+        const struct block_leaf *b = tile_crossings(t, &t->leaves[l]);
+        if (!b)
+            continue;
+        for (int p = from; p < to; p++) {
+            if (!b->mesh) {
+                if (!(b->enter[p] < b->leave[p]))
+                    continue;
+                items[next[p]++] = crossing_make(b->enter[p], l, false);
+                items[next[p]++] = crossing_make(b->leave[p], l, true);
+                continue;
+            }
+            for (uint32_t k = b->first[p]; k < b->first[p + 1]; k++) {
+                const struct mesh_interval *m = &t->mesh.intervals[b->interval + k];
+                items[next[p]++] = crossing_make(m->enter, l, false);
+                items[next[p]++] = crossing_make(m->leave, l, true);
+            }
+        }
+    }
+}
+
+static void keep_nearest(struct walk_lists *w, uint32_t *n, crossing *ceiling)
+{
+    sort(w->items, w->spare, *n);
+    *n = w->size / 2;
+    *ceiling = w->items[*n - 1];
+}
+
+static void offer(struct walk_lists *w, uint32_t *n, crossing c, crossing floor, crossing *ceiling)
+{
+    if (c <= floor || c > *ceiling)
+        return;
+    if (*n == w->size)
+        keep_nearest(w, n, ceiling);
+    if (c <= *ceiling)
+        w->items[(*n)++] = c;
+}
+
+// The nearest crossings of one ray beyond `floor`, as many as fit; *ceiling is the last one taken,
+// or all ones when nothing is left beyond. For rays with more crossings than memory.
+static uint32_t fill_nearest(struct tile *t, struct leaf_range leaves, int p, crossing floor,
+                             crossing *ceiling)
+{
+    uint32_t n = 0;
+    *ceiling = UINT64_MAX;
+    for (uint32_t i = 0; i < leaves.count; i++) {
+        uint32_t l = leaves.first + i;
+        const struct block_leaf *b = tile_crossings(t, &t->leaves[l]);
+        if (!b)
+            continue;
+        if (!b->mesh) {
+            if (b->enter[p] < b->leave[p]) {
+                offer(t->lists, &n, crossing_make(b->enter[p], l, false), floor, ceiling);
+                offer(t->lists, &n, crossing_make(b->leave[p], l, true), floor, ceiling);
+            }
+            continue;
+        }
+        for (uint32_t k = b->first[p]; k < b->first[p + 1]; k++) {
+            const struct mesh_interval *m = &t->mesh.intervals[b->interval + k];
+            offer(t->lists, &n, crossing_make(m->enter, l, false), floor, ceiling);
+            offer(t->lists, &n, crossing_make(m->leave, l, true), floor, ceiling);
+        }
+    }
+    sort(t->lists->items, t->lists->spare, n);
+    return n;
+}
+
+// Makes the combination before items[taken] the base of the next list.
+static void carry(struct ray_walk *r, uint32_t taken)
+{
+    struct walk_lists *w = r->t->lists;
+    replay(r->t, r->items, taken);
+    array_reserve(&w->base, &w->base_capacity, w->member_count + 1);
+    memcpy(w->base, w->members, w->member_count * sizeof *w->base);
+    w->base_count = w->member_count;
+}
+
+static void walk_in_passes(struct ray_walk *r, struct leaf_range leaves)
+{
+    struct walk_lists *w = r->t->lists;
+    crossing floor = 0, ceiling;
+    bool over = false;
+    do {
+        r->items = w->items;
+        r->count = fill_nearest(r->t, leaves, r->ray, floor, &ceiling);
+        bool more = ceiling != UINT64_MAX;
+        uint64_t key = r->key;
+        uint32_t taken = walk_list(r, more, &over);
+        if (over || !more)
+            break;
+        if (!taken) // one cluster fills the whole list: take it as it is
+            taken = r->count;
+        r->key = key; // the crossings of the cut-off cluster come again
+        for (uint32_t i = 0; i < taken; i++)
+            step(r, w->items[i]);
+        if (r->array)
+            for (uint32_t i = 0; i < r->count; i++)
+                r->t->lists->inside[r->t->leaves[(uint32_t)w->items[i] >> 1].leaf] -=
+                    (uint32_t)w->items[i] & 1 ? -1 : 1;
+        carry(r, taken);
+        floor = w->items[taken - 1];
+    } while (!over);
+}
+
+struct block_walk {
+    bool first_only;
+    struct rays_at *out; // first_only
+};
+
+static void walk_ray(struct tile *t, struct leaf_range leaves, int p, crossing *items,
+                     uint32_t count, bool passes, const struct block_walk *bw)
+{
+    struct ray_walk r;
+    bool over;
+    ray_begin(&r, t, p, bw->first_only);
+    if (passes) {
+        walk_in_passes(&r, leaves);
+    } else {
+        sort(items, t->lists->spare, count);
+        r.items = items;
+        r.count = count;
+        walk_list(&r, false, &over);
+    }
+    ray_end(&r);
+    if (bw->first_only) {
+        bw->out->key[p / BLOCK][p % BLOCK] = r.first_key;
+        bw->out->owner[p / BLOCK][p % BLOCK] = r.first_owner;
+    }
+}
+
+// Rays [from, to) of the block, whose lists fit into memory together unless it is one ray.
+static void walk_rays(struct tile *t, struct leaf_range leaves, int from, int to,
+                      const uint32_t *counts, const struct block_walk *bw, uint32_t *span_first)
+{
+    struct walk_lists *w = t->lists;
+    uint32_t next[BLOCK_PIXELS], start = 0;
+    bool passes = to - from == 1 && counts[from] > w->size;
+    for (int p = from; p < to; p++) {
+        next[p] = start;
+        start += counts[p];
+    }
+    if (!passes)
+        fill_lists(t, leaves, from, to, next);
+    for (int p = from; p < to; p++) {
+        if (span_first)
+            span_first[p - from] = w->span_count;
+        walk_ray(t, leaves, p, w->items + (passes ? 0 : next[p] - counts[p]), counts[p], passes,
+                 bw);
+    }
+    if (span_first)
+        span_first[to - from] = w->span_count;
+}
+
+static uint64_t sum_of(const uint32_t *counts, int from, int to)
+{
+    uint64_t sum = 0;
+    for (int p = from; p < to; p++)
+        sum += counts[p];
+    return sum;
+}
+
+void walk_first(struct tile *t, uint32_t first_leaf, uint32_t count, struct rays_at *out)
+{
+    uint32_t counts[BLOCK_PIXELS];
+    struct leaf_range leaves = {first_leaf, count};
+    struct block_walk bw = {.first_only = true, .out = out};
+    uint64_t sum = count_crossings(t, leaves, counts);
+    t->fragments += sum;
+    int group = sum <= t->lists->size ? BLOCK_PIXELS : 1;
+    for (int p = 0; p < BLOCK_PIXELS; p += group)
+        walk_rays(t, leaves, p, p + group, counts, &bw, NULL);
+}
+
+void walk_block(struct tile *t,
+                void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+                void *context)
+{
+    struct walk_lists *w = t->lists;
+    uint32_t counts[BLOCK_PIXELS], span_first[BLOCK_PIXELS + 1];
+    struct leaf_range leaves = {0, t->leaf_count};
+    struct block_walk bw = {0};
+    int width = t->x1 - t->bx < BLOCK ? t->x1 - t->bx : BLOCK;
+    int height = t->y1 - t->by < BLOCK ? t->y1 - t->by : BLOCK;
+    uint64_t sum = count_crossings(t, leaves, counts);
+    t->fragments += sum;
+
+    bool whole = sum <= w->size && width == BLOCK && height == BLOCK;
+    for (int y = 0; y < (whole ? 1 : height); y++) {
+        bool row =
+            !whole && width == BLOCK && sum_of(counts, y * BLOCK, (y + 1) * BLOCK) <= w->size;
+        int group = whole ? BLOCK_PIXELS : row ? BLOCK : 1;
+        for (int x = 0; x < (group > 1 ? 1 : width); x++) {
+            w->span_count = 0;
+            walk_rays(t, leaves, y * BLOCK + x, y * BLOCK + x + group, counts, &bw, span_first);
+            int x0 = t->bx + x, y0 = t->by + y;
+            struct span_block out = {.x0 = x0,
+                                     .y0 = y0,
+                                     .x1 = x0 + (group > 1 ? BLOCK : 1),
+                                     .y1 = y0 + (whole ? BLOCK : 1),
+                                     .first = span_first,
+                                     .spans = w->spans};
+            sink(context, t->worker, &out);
+        }
+    }
+}
