@@ -1,0 +1,190 @@
+// bench_main.c - hcsg-bench: frame times on the scenes of scenes.txt, beside OpenCSG's.
+#include "base/mem.h"
+#include "base/options.h"
+#include "measure.h"
+#include "report.h"
+#include "turn.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static struct {
+    const char *list, *scenes, *output, *pictures;
+    bool opencsg, process;
+    uint32_t frames, threads, size;
+    double limit;
+} given = {.list = HCSG_BENCH_LIST,
+           .scenes = HCSG_BENCH_SCENES,
+           .frames = TURN_VIEWS,
+           .threads = 2,
+           .size = 1024,
+           .limit = 6};
+
+static const struct option options[] = {
+    {"list", 0, OPTION_TEXT, "FILE", "table of the scenes (default: scenes.txt of the source)",
+     &given.list, 0, 0},
+    {"scenes", 0, OPTION_TEXT, "FOLDER", "where the scenes are exported to as NAME.csg",
+     &given.scenes, 0, 0},
+    {"output", 'o', OPTION_TEXT, "FILE", "write all figures there: scene, metric, median, min, n",
+     &given.output, 0, 0},
+    {"pictures", 0, OPTION_TEXT, "FOLDER", "write pictures of the first view there",
+     &given.pictures, 0, 0},
+    {"opencsg", 0, OPTION_FLAG, NULL, "measure OpenCSG too, scene by scene", &given.opencsg, 0, 0},
+    {"process", 0, OPTION_FLAG, NULL,
+     "the operands are .csg files: time whole runs of hcsg-render and openscad", &given.process, 0,
+     0},
+    {"frames", 0, OPTION_COUNT, "N", "frames of each kind, 13 views in turn (default 13)",
+     &given.frames, 1, 10000},
+    {"threads", 0, OPTION_COUNT, "N", "threads to draw with; 0: one per processor (default 2)",
+     &given.threads, 0, 256},
+    {"size", 0, OPTION_COUNT, "N", "side of the picture in pixels (default 1024)", &given.size, 16,
+     8192},
+    {"limit", 0, OPTION_NUMBER, "S", "seconds for each kind of frame (default 6)", &given.limit, 0,
+     1e6},
+};
+
+static const struct program program = {
+    .name = "hcsg-bench",
+    .version = HCSG_VERSION,
+    .summary = "Measures hcsg on its scenes.",
+    .operands = "[SCENE...]",
+    .options = options,
+    .option_count = array_count(options),
+};
+
+// Path of a program that was built beside this one.
+static void sibling(char *out, size_t size, const char *name)
+{
+    char self[3072];
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    self[length > 0 ? length : 0] = 0;
+    char *slash = strrchr(self, '/');
+    if (slash)
+        slash[1] = 0;
+    snprintf(out, size, "%s%s", self, name);
+}
+
+static bool is_wanted(const char *name, char **names, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(names[i], name) == 0)
+            return true;
+    return count == 0;
+}
+
+static bool names_are_known(const struct scenes *scenes, char **names, int count, struct error *err)
+{
+    for (int i = 0; i < count; i++) {
+        bool found = false;
+        for (uint32_t k = 0; k < scenes->count; k++)
+            found |= strcmp(scenes->items[k].name, names[i]) == 0;
+        if (!found) {
+            error_set(err, "no scene '%s' in %s", names[i], given.list);
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool bench_scene(struct result *r, struct error *err)
+{
+    char csg[4096], opencsg[4096];
+    snprintf(csg, sizeof csg, "%s/%s.csg", given.scenes, r->scene->name);
+    sibling(opencsg, sizeof opencsg, "hcsg-bench-opencsg");
+    const struct measure_options ours = {.threads = given.threads,
+                                         .size = given.size,
+                                         .frames = given.frames,
+                                         .limit = given.limit,
+                                         .pictures = given.pictures};
+    fprintf(stderr, "%s: %s\n", program.name, r->scene->name);
+    if (!measure_scene(r, csg, &ours, err))
+        return false;
+    const struct opponent_options theirs = {.program = opencsg,
+                                            .size = given.size,
+                                            .threads = r->threads,
+                                            .limit = given.limit,
+                                            .pictures = given.pictures};
+    return !given.opencsg || opponent_measure(r, csg, &theirs, err);
+}
+
+static bool bench_scenes(FILE *tsv, char **names, int count, struct error *err)
+{
+    struct scenes scenes;
+    if (!scenes_read(&scenes, given.list, err))
+        return false;
+    struct result *results = mem_zalloc((scenes.count + 1) * sizeof *results);
+    uint32_t done = 0;
+    bool ok = names_are_known(&scenes, names, count, err);
+    for (uint32_t i = 0; ok && i < scenes.count; i++) {
+        if (!is_wanted(scenes.items[i].name, names, count))
+            continue;
+        struct result *r = &results[done++];
+        r->scene = &scenes.items[i];
+        ok = bench_scene(r, err);
+        if (ok && tsv)
+            report_rows(tsv, r);
+    }
+    if (ok)
+        report_tables(stdout, results, done);
+    for (uint32_t i = 0; i < done; i++)
+        result_free(&results[i]);
+    free(results);
+    scenes_free(&scenes);
+    return ok;
+}
+
+static bool bench_processes(FILE *tsv, char **files, int count, struct error *err)
+{
+    char render[4096];
+    sibling(render, sizeof render, "hcsg-render");
+    struct process_result *results = mem_zalloc(((size_t)count + 1) * sizeof *results);
+    uint32_t done = 0;
+    bool ok = true;
+    for (int i = 0; ok && i < count; i++) {
+        ok = process_measure(&results[done], files[i], render, err);
+        if (ok && tsv)
+            report_process_row(tsv, &results[done]);
+        done += ok;
+    }
+    if (ok)
+        report_process_table(stdout, results, done);
+    for (uint32_t i = 0; i < done; i++)
+        process_free(&results[i]);
+    free(results);
+    return ok;
+}
+
+static bool run(char **operands, int count, struct error *err)
+{
+    FILE *tsv = NULL;
+    if (given.output) {
+        tsv = fopen(given.output, given.process ? "a" : "w");
+        if (!tsv) {
+            error_set(err, "%s: cannot write", given.output);
+            return false;
+        }
+        if (!given.process)
+            report_heading(tsv);
+    }
+    bool ok = given.process ? bench_processes(tsv, operands, count, err)
+                            : bench_scenes(tsv, operands, count, err);
+    if (tsv && fclose(tsv) != 0 && ok) {
+        error_set(err, "%s: cannot write", given.output);
+        ok = false;
+    }
+    return ok;
+}
+
+int main(int argc, char **argv)
+{
+    int operands = 0;
+    struct error err;
+    enum options_result result = options_parse(&program, argc, argv, &operands, &err);
+    if (result == OPTIONS_DONE)
+        return 0;
+    if (result == OPTIONS_RUN && run(argv + 1, operands, &err))
+        return 0;
+    fprintf(stderr, "%s: %s\n", program.name, err.text);
+    return 1;
+}

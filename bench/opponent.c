@@ -1,0 +1,154 @@
+// opponent.c - OpenCSG on the same scene, in a child; and whole processes against openscad.
+#include "opponent.h"
+
+#include "base/mem.h"
+#include "child.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { PROCESS_RUNS = 5 };
+#define LOAD_ALLOWANCE 20 // seconds that a child may take beside its frames
+#define PROCESS_LIMIT  60
+
+// A command line under construction; texts are borrowed.
+struct command {
+    const char *words[40];
+    uint32_t count;
+};
+
+static void command_add(struct command *c, const char *word)
+{
+    if (c->count + 1 < array_count(c->words))
+        c->words[c->count++] = word;
+}
+
+// Programs that draw with OpenGL get a display where there is none.
+static struct command command_with_display(void)
+{
+    struct command c = {0};
+    if (!getenv("DISPLAY")) {
+        command_add(&c, "xvfb-run");
+        command_add(&c, "-a");
+    }
+    return c;
+}
+
+// Takes "key value" lines apart.
+static void read_output(struct result *r, struct opencsg_result *to, char *text)
+{
+    bool first = true;
+    double warm_up = 0;
+    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n")) {
+        double ms;
+        if (sscanf(line, "frame %lf", &ms) == 1) {
+            if (first)
+                warm_up = ms;
+            else
+                samples_add(&to->frames, ms);
+            first = false;
+        }
+        (void)!sscanf(line, "products %u", &r->products);
+        (void)!sscanf(line, "literals %u", &r->literals);
+    }
+    if (!first && !to->frames.count)
+        samples_add(&to->frames, warm_up);
+}
+
+static bool run_setting(struct result *r, int setting, const char *csg,
+                        const struct opponent_options *o, struct error *err)
+{
+    const struct setting *s = &opencsg_settings[setting];
+    char size[16], limit[32], picture[4096];
+    snprintf(size, sizeof size, "%u", o->size);
+    snprintf(limit, sizeof limit, "%g", o->limit);
+    struct command c = command_with_display();
+    command_add(&c, o->program);
+    command_add(&c, "--algorithm");
+    command_add(&c, s->algorithm);
+    command_add(&c, "--size");
+    command_add(&c, size);
+    command_add(&c, "--limit");
+    command_add(&c, limit);
+    if (s->boxes)
+        command_add(&c, "--boxes");
+    if (o->pictures && setting == 0) {
+        snprintf(picture, sizeof picture, "%s/%s-opencsg.png", o->pictures, r->scene->name);
+        command_add(&c, "--picture");
+        command_add(&c, picture);
+    }
+    command_add(&c, csg);
+    struct child child;
+    if (!child_run(&child, c.words, 2 * o->limit + LOAD_ALLOWANCE, true, err))
+        return false;
+    struct opencsg_result *to = &r->opencsg[setting];
+    bool ok = child.late || child.status == 0;
+    if (ok) {
+        read_output(r, to, child.output);
+        to->late = child.late && !to->frames.count;
+    } else {
+        error_set(err, "%s: failed on %s", o->program, csg);
+    }
+    child_free(&child);
+    return ok;
+}
+
+bool opponent_measure(struct result *out, const char *csg, const struct opponent_options *options,
+                      struct error *err)
+{
+    // Mesa's software rasterizer takes as many threads as there are processors unless it is told.
+    char threads[16];
+    snprintf(threads, sizeof threads, "%u", options->threads);
+    setenv("LP_NUM_THREADS", threads, 1);
+    bool ok = true;
+    for (int i = 0; ok && i < OPENCSG_SETTINGS; i++)
+        ok = run_setting(out, i, csg, options, err);
+    return ok;
+}
+
+static bool run_process(struct samples *to, const struct command *c, struct error *err)
+{
+    struct child child;
+    if (!child_run(&child, c->words, PROCESS_LIMIT, false, err))
+        return false;
+    bool ok = !child.late && child.status == 0;
+    if (ok)
+        samples_add(to, child.seconds * 1e3);
+    else
+        error_set(err, "%s: failed", c->words[0]);
+    child_free(&child);
+    return ok;
+}
+
+bool process_measure(struct process_result *out, const char *csg, const char *render,
+                     struct error *err)
+{
+    char ours[64], theirs[64];
+    snprintf(ours, sizeof ours, "/tmp/hcsg-bench-%ld-ours.png", (long)getpid());
+    snprintf(theirs, sizeof theirs, "/tmp/hcsg-bench-%ld-theirs.png", (long)getpid());
+    struct command we = {0}, they = {0};
+    const char *const our_words[] = {render, csg, "-o", ours, "--imgsize=512,512"};
+    const char *const their_words[] = {"openscad",          csg,         "-o",          theirs,
+                                       "--imgsize=512,512", "--viewall", "--autocenter"};
+    for (size_t i = 0; i < array_count(our_words); i++)
+        command_add(&we, our_words[i]);
+    for (size_t i = 0; i < array_count(their_words); i++)
+        command_add(&they, their_words[i]);
+    *out = (struct process_result){.file = csg};
+    bool ok = true;
+    for (int i = 0; ok && i < PROCESS_RUNS; i++)
+        ok = run_process(&out->ours, &we, err) && run_process(&out->theirs, &they, err);
+    unlink(ours);
+    unlink(theirs);
+    if (!ok)
+        process_free(out);
+    return ok;
+}
+
+void process_free(struct process_result *p)
+{
+    samples_free(&p->ours);
+    samples_free(&p->theirs);
+    *p = (struct process_result){0};
+}

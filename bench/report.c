@@ -1,0 +1,233 @@
+// report.c - results as rows for programs and as tables for people.
+#include "report.h"
+
+#include "base/mem.h"
+
+#include <string.h>
+
+static void row(FILE *tsv, const char *scene, const char *metric, const struct samples *s)
+{
+    if (s->count)
+        fprintf(tsv, "%s\t%s\t%.6g\t%.6g\t%u\n", scene, metric, samples_median(s), samples_least(s),
+                s->count);
+}
+
+static void value(FILE *tsv, const char *scene, const char *metric, double v)
+{
+    fprintf(tsv, "%s\t%s\t%.6g\t%.6g\t1\n", scene, metric, v, v);
+}
+
+void report_heading(FILE *tsv)
+{
+    fprintf(tsv, "scene\tmetric\tmedian\tmin\tn\n");
+}
+
+static double occupancy(const struct result *r)
+{
+    return r->table.capacity ? (double)r->table.combinations / r->table.capacity : 0;
+}
+
+// OpenCSG's time over ours; 0 when it was not measured.
+static double ratio(const struct result *r)
+{
+    int best = result_best_opencsg(r);
+    double ours = samples_median(&r->picture);
+    return best < 0 || ours <= 0 ? 0 : samples_median(&r->opencsg[best].frames) / ours;
+}
+
+void report_rows(FILE *tsv, const struct result *r)
+{
+    const char *name = r->scene->name;
+    row(tsv, name, "parse_ms", &r->parse);
+    row(tsv, name, "model_ms", &r->build);
+    value(tsv, name, "cold_ms", r->cold);
+    row(tsv, name, "opaque_ms", &r->picture);
+    row(tsv, name, "setup_ms", &r->setup);
+    row(tsv, name, "draw_ms", &r->draw);
+    row(tsv, name, "shade_ms", &r->shade);
+    row(tsv, name, "empty_table_ms", &r->empty);
+    row(tsv, name, "filled_table_ms", &r->filled);
+    row(tsv, name, "empty_table_extra", &r->extra);
+    row(tsv, name, "intervals_ms", &r->spans);
+    row(tsv, name, "hash_opaque_ms", &r->walk_picture[WALK_BY_HASH]);
+    row(tsv, name, "hash_intervals_ms", &r->walk_spans[WALK_BY_HASH]);
+    row(tsv, name, "array_opaque_ms", &r->walk_picture[WALK_BY_ARRAY]);
+    row(tsv, name, "array_intervals_ms", &r->walk_spans[WALK_BY_ARRAY]);
+    const struct {
+        const char *metric;
+        double value;
+    } values[] = {
+        {"leaves", r->leaves},
+        {"classes", r->classes},
+        {"triangles", r->triangles},
+        {"threads", r->threads},
+        {"covered", r->covered},
+        {"opaque_fragments", r->fragments},
+        {"intervals_fragments", r->span_fragments},
+        {"opaque_ns_per_fragment_core", r->nanoseconds},
+        {"intervals_ns_per_fragment_core", r->span_nanoseconds},
+        {"intervals", r->intervals},
+        {"misses", r->misses},
+        {"combinations", r->table.combinations},
+        {"table_occupancy", occupancy(r)},
+        {"table_age_mean", r->table.average_age},
+        {"table_age_max", r->table.max_age},
+        {"table_rebuilds", r->table.rebuilds},
+        {"table_bytes", (double)r->table.bytes},
+        {"frame_peak_bytes", (double)r->peak_bytes},
+    };
+    for (size_t i = 0; i < array_count(values); i++)
+        value(tsv, name, values[i].metric, values[i].value);
+    for (int i = 0; i < OPENCSG_SETTINGS; i++) {
+        char metric[64];
+        snprintf(metric, sizeof metric, "opencsg_%s_ms", opencsg_settings[i].name);
+        row(tsv, name, metric, &r->opencsg[i].frames);
+    }
+    if (r->products) {
+        value(tsv, name, "opencsg_products", r->products);
+        value(tsv, name, "opencsg_literals", r->literals);
+        value(tsv, name, "opencsg_over_ours", ratio(r));
+    }
+    fflush(tsv);
+}
+
+// The last part of a path, without its extension.
+static void short_name(const char *path, char *out, size_t size)
+{
+    const char *slash = strrchr(path, '/');
+    snprintf(out, size, "%s", slash ? slash + 1 : path);
+    char *dot = strrchr(out, '.');
+    if (dot)
+        *dot = 0;
+}
+
+void report_process_row(FILE *tsv, const struct process_result *p)
+{
+    char name[256];
+    short_name(p->file, name, sizeof name);
+    row(tsv, name, "process_hcsg_render_ms", &p->ours);
+    row(tsv, name, "process_openscad_ms", &p->theirs);
+    fflush(tsv);
+}
+
+static void against_opencsg(FILE *out, const struct result *results, uint32_t count)
+{
+    fprintf(out, "\n### Against OpenCSG\n\n"
+                 "| scene | primitives | products | automatic | automatic, boxes | SCS, queries | "
+                 "Goldfeather, queries | hcsg ms | best / hcsg | at least | after |\n"
+                 "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+    for (uint32_t i = 0; i < count; i++) {
+        const struct result *r = &results[i];
+        if (result_best_opencsg(r) < 0)
+            continue;
+        fprintf(out, "| %s | %u | %u |", r->scene->name, r->leaves, r->products);
+        for (int k = 0; k < OPENCSG_SETTINGS; k++) {
+            const struct opencsg_result *o = &r->opencsg[k];
+            if (o->frames.count)
+                fprintf(out, " %.0f (%u) |", samples_median(&o->frames), o->frames.count);
+            else
+                fprintf(out, " %s |", o->late ? "too slow" : "–");
+        }
+        fprintf(out, " %.1f | **%.1f** |", samples_median(&r->picture), ratio(r));
+        if (r->scene->at_least > 0)
+            fprintf(out, " %g | %g |\n", r->scene->at_least, r->scene->after);
+        else
+            fprintf(out, " – | – |\n");
+    }
+}
+
+static void frames(FILE *out, const struct result *results, uint32_t count)
+{
+    fprintf(out, "\n### Frames\n\n"
+                 "| scene | opaque ms, median (min, n) | empty table | covered | Mfragments | ns | "
+                 "all intervals ms, median (min, n) | Mfragments | ns | intervals per pixel |\n"
+                 "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+    for (uint32_t i = 0; i < count; i++) {
+        const struct result *r = &results[i];
+        double pixels = (double)r->size * r->size;
+        fprintf(out, "| %s | %.1f (%.1f, %u) | %+.1f %% | %.0f %% | %.2f | %.1f |", r->scene->name,
+                samples_median(&r->picture), samples_least(&r->picture), r->picture.count,
+                samples_median(&r->extra) * 100, r->covered * 100, r->fragments / 1e6,
+                r->nanoseconds);
+        fprintf(out, " %.1f (%.1f, %u) | %.2f | %.1f | %.2f |\n", samples_median(&r->spans),
+                samples_least(&r->spans), r->spans.count, r->span_fragments / 1e6,
+                r->span_nanoseconds, r->covered > 0 ? r->intervals / (pixels * r->covered) : 0);
+    }
+}
+
+static void stages(FILE *out, const struct result *results, uint32_t count)
+{
+    fprintf(out,
+            "\n### Stages, ms\n\n"
+            "| scene | triangles | read | build | first frame of all | set up | draw | shade | "
+            "memory of a frame, MB |\n"
+            "|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+    for (uint32_t i = 0; i < count; i++) {
+        const struct result *r = &results[i];
+        fprintf(out, "| %s | %u | %.2f | %.2f | %.1f | %.2f | %.1f | %.2f | %.1f |\n",
+                r->scene->name, r->triangles, samples_median(&r->parse), samples_median(&r->build),
+                r->cold, samples_median(&r->setup), samples_median(&r->draw),
+                samples_median(&r->shade), (double)r->peak_bytes / (1 << 20));
+    }
+}
+
+static void tables(FILE *out, const struct result *results, uint32_t count)
+{
+    fprintf(out, "\n### Tables of combinations\n\n"
+                 "| scene | values | combinations | places | occupancy | mean age | largest age | "
+                 "rebuilds | KB | evaluated in a frame from empty |\n"
+                 "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+    for (uint32_t i = 0; i < count; i++) {
+        const struct result *r = &results[i];
+        const struct discovery_stats *t = &r->table;
+        fprintf(out, "| %s | %u | %u | %u | %.0f %% | %.2f | %.0f | %u | %.0f | %.0f |\n",
+                r->scene->name, r->classes, t->combinations, t->capacity, occupancy(r) * 100,
+                t->average_age, t->max_age, t->rebuilds, (double)t->bytes / 1024, r->misses);
+    }
+}
+
+static void walks(FILE *out, const struct result *results, uint32_t count)
+{
+    fprintf(out, "\n### Hash against array, ms\n\n"
+                 "| scene | values | opaque: hash | array | array / hash | "
+                 "all intervals: hash | array | array / hash |\n"
+                 "|---|--:|--:|--:|--:|--:|--:|--:|\n");
+    for (uint32_t i = 0; i < count; i++) {
+        const struct result *r = &results[i];
+        const struct samples *pictures = r->walk_picture, *spans = r->walk_spans;
+        if (!pictures[WALK_BY_ARRAY].count)
+            continue;
+        double p[WALKS], s[WALKS];
+        for (int k = 0; k < WALKS; k++) {
+            p[k] = samples_median(&pictures[k]);
+            s[k] = samples_median(&spans[k]);
+        }
+        fprintf(out, "| %s | %u | %.1f | %.0f | %.1f | %.1f | %.0f | %.1f |\n", r->scene->name,
+                r->classes, p[WALK_BY_HASH], p[WALK_BY_ARRAY], p[WALK_BY_ARRAY] / p[WALK_BY_HASH],
+                s[WALK_BY_HASH], s[WALK_BY_ARRAY], s[WALK_BY_ARRAY] / s[WALK_BY_HASH]);
+    }
+}
+
+void report_tables(FILE *out, const struct result *results, uint32_t count)
+{
+    against_opencsg(out, results, count);
+    frames(out, results, count);
+    stages(out, results, count);
+    tables(out, results, count);
+    walks(out, results, count);
+}
+
+void report_process_table(FILE *out, const struct process_result *results, uint32_t count)
+{
+    fprintf(out, "\n### Whole processes, ms\n\n"
+                 "| file | hcsg-render, median (min) | openscad, median (min) | ratio |\n"
+                 "|---|--:|--:|--:|\n");
+    for (uint32_t i = 0; i < count; i++) {
+        const struct process_result *p = &results[i];
+        char name[256];
+        short_name(p->file, name, sizeof name);
+        fprintf(out, "| %s | %.0f (%.0f) | %.0f (%.0f) | %.1f |\n", name, samples_median(&p->ours),
+                samples_least(&p->ours), samples_median(&p->theirs), samples_least(&p->theirs),
+                samples_median(&p->theirs) / samples_median(&p->ours));
+    }
+}

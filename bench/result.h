@@ -1,0 +1,55 @@
+// result.h - what was measured on one scene.
+#pragma once
+#include "hcsg/discovery.h"
+#include "sample.h"
+#include "scenes.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { MEMORY_BUDGET = 256 }; // MB of a frame beside model and picture
+
+// OpenCSG's settings that are tried.
+enum { OPENCSG_SETTINGS = 4 };
+struct setting {
+    const char *name, *algorithm;
+    bool boxes;
+};
+extern const struct setting opencsg_settings[OPENCSG_SETTINGS];
+
+struct opencsg_result {
+    struct samples frames; // ms
+    bool late;             // not one frame within the limit
+};
+
+enum { WALK_BY_HASH, WALK_BY_ARRAY, WALKS };
+
+// Times in ms.
+struct result {
+    const struct scene *scene;
+    uint32_t leaves, classes, triangles, threads;
+    uint32_t size; // side of the picture
+    struct samples parse, build;
+    double cold;            // the very first frame
+    struct samples picture; // a turn, from ray to RGB, table kept from view to view
+    struct samples setup, draw, shade;
+    struct samples empty;  // the same views, each from an empty table
+    struct samples filled; // each drawn again straight after
+    struct samples extra;  // time of the former over the latter, less 1
+    struct samples spans;  // all intervals, nothing shaded
+    struct samples walk_picture[WALKS], walk_spans[WALKS]; // by the paper's hash, by its array
+    double fragments, span_fragments;                      // mean of a frame
+    double nanoseconds, span_nanoseconds; // per fragment and core, of drawing alone
+    double intervals;                     // mean of a frame
+    double covered;                       // share of the pixels that show something
+    double misses;                        // combinations evaluated in a frame from an empty table
+    struct discovery_stats table;
+    size_t peak_bytes; // of all frames
+    struct opencsg_result opencsg[OPENCSG_SETTINGS];
+    uint32_t products, literals;
+};
+
+void result_free(struct result *r); // leaves {0}
+
+// The setting with the smallest median; -1 when none has a frame.
+int result_best_opencsg(const struct result *r);
