@@ -131,6 +131,21 @@ static void fail(struct loader *l, struct messages *m)
     publish(l, NULL, summary(m), true, l->job != NULL);
 }
 
+// OpenSCAD's bounds also count what intersections cut away.
+static struct box visible_box(const struct model *m)
+{
+    struct box visible = BOX_EMPTY;
+    for (uint32_t i = 0; i < m->body_count; i++) {
+        const struct body *b = &m->bodies[i];
+        for (uint32_t l = 0; l < b->leaf_count; l++) {
+            struct box box = box_intersection(b->leaves[l].box, b->roi[l]);
+            if (!b->leaves[l].subtracted && !box_is_empty(box))
+                visible = box_union(visible, box);
+        }
+    }
+    return visible;
+}
+
 static void build(struct loader *l, const struct csg_tree *tree, struct messages *m,
                   struct load_times times)
 {
@@ -138,6 +153,7 @@ static void build(struct loader *l, const struct csg_tree *tree, struct messages
     struct model_options options = MODEL_DEFAULTS;
     options.epsilon = l->options.epsilon;
     model_build(&s->model, tree, l->store, &options, m);
+    s->visible = visible_box(&s->model);
     shader_init(&s->shader, &s->model, l->options.scheme);
     times.built = clock_seconds();
     s->times = times;

@@ -15,6 +15,7 @@ struct load_times { // clock_seconds
 struct loaded {
     struct model model;
     struct shader shader;
+    struct box visible; // holds all that can show, closer than the model's bounds
     struct load_times times;
     uint32_t number; // of the load, from 1
     atomic_uint references;

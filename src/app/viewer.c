@@ -74,7 +74,7 @@ static void take_news(struct viewer *v)
     if (news.loaded) {
         loaded_release(v->loaded);
         v->loaded = news.loaded;
-        v->input.bounds = news.loaded->model.bounds;
+        v->input.bounds = news.loaded->visible;
         if (!v->framed && !box_is_empty(v->input.bounds)) {
             input_reset_view(&v->input);
             v->framed = true;
