@@ -63,8 +63,10 @@ static void attach_trees(struct cpu_device *d, struct frame *f)
     for (uint32_t i = 0; i < d->tree_count; i++)
         d->trees[i].used = false;
     for (uint32_t i = 0; i < b->leaf_count; i++)
-        if (!b->leaves[i].solid->convex)
-            d->trees[find_tree(d, b->leaves[i].solid)].used = true;
+        if (!b->leaves[i].solid->convex) {
+            uint32_t tree = find_tree(d, b->leaves[i].solid); // may move d->trees
+            d->trees[tree].used = true;
+        }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < d->tree_count; i++) {
         if (d->trees[i].used)
