@@ -1,6 +1,23 @@
 // compare.c - does the device's answer for a pixel agree with the oracle?
 #include "compare.h"
 
+const char *const fit_text[FITS_COUNT] = {
+    [FITS] = "fits",
+    [FIT_NO_LEAF] = "no such leaf",
+    [FIT_OWNER_TURNED] = "the owner faces the other way",
+    [FIT_OWNER_ELSEWHERE] = "the owner has no face there",
+    [FIT_FACE] = "another face of the owner",
+    [FIT_CAP_ELSEWHERE] = "a cap away from near",
+    [FIT_CAP_OWNER] = "the owner of the cap is not there",
+    [FIT_ENTER] = "solid begins elsewhere",
+    [FIT_LEAVE] = "solid ends elsewhere",
+    [FIT_VISITS] = "the pixel was not given once",
+    [FIT_SPANS] = "another number of spans",
+    [FIT_OPEN_END] = "open end away from far",
+    [FIT_EXTRA] = "a surface where there is none",
+    [FIT_MISSING] = "a surface is missing",
+};
+
 static const double thin[3] = {1, 0.2, 5};
 static const double aside = 1e-3; // pixels
 
@@ -9,55 +26,53 @@ static bool within(double depth, struct oracle_end end, double tolerance)
     return depth >= end.low - tolerance && depth <= end.high + tolerance;
 }
 
-// Does the plane of a face of the leaf meet the ray at an end? Near a corner the ray hits another
+// Does the plane of a face of the leaf hold the end? On an edge the ray may be said to hit either
 // face.
 static bool face_fits(const struct comparison *c, const struct oracle_ray *ray, uint32_t leaf,
                       uint32_t face, struct oracle_end end)
 {
     const struct oracle_placed *p = &c->oracle->leaves[leaf];
+    struct vec3 point = vec3_add(ray->origin, vec3_scale(ray->direction, end.low));
     for (uint32_t i = 0; i < p->mesh->triangle_count; i++) {
         if (p->mesh->faces[i] != face)
             continue;
-        struct vec3 n = p->normals[i];
-        double along = vec3_dot(n, ray->direction);
         struct vec3 corner = p->vertices[p->mesh->triangles[i][0]];
-        double depth = vec3_dot(n, vec3_sub(corner, ray->origin)) / along;
-        if (along != 0 && within(depth, end, c->tolerance))
+        if (fabs(vec3_dot(p->normals[i], vec3_sub(point, corner))) < c->tolerance)
             return true;
     }
     return false;
 }
 
 // May this leaf and face own the end? way: +1 where solid begins, -1 where it ends.
-static const char *check_owner(const struct comparison *c, const struct oracle_ray *ray,
-                               struct oracle_end end, uint32_t leaf, uint32_t face, int way)
+static enum fit check_owner(const struct comparison *c, const struct oracle_ray *ray,
+                            struct oracle_end end, uint32_t leaf, uint32_t face, int way)
 {
     if (leaf >= c->oracle->leaf_count)
-        return "no such leaf";
+        return FIT_NO_LEAF;
     bool there = false, turned = false;
     for (uint32_t i = 0; i < ray->crossing_count; i++) {
         const struct oracle_crossing *x = &ray->crossings[i];
         if (x->leaf != leaf || !within(x->depth, end, c->tolerance))
             continue;
-        bool right = x->delta * c->oracle->polarity[leaf] == way;
+        bool right = !c->strict || x->delta * c->oracle->polarity[leaf] == way;
         there |= right;
         turned |= !right;
         if (right && x->face == face)
-            return NULL;
+            return FITS;
     }
     if (!there)
-        return turned ? "the owner faces the other way" : "the owner has no face there";
-    return face_fits(c, ray, leaf, face, end) ? NULL : "another face of the owner";
+        return turned ? FIT_OWNER_TURNED : FIT_OWNER_ELSEWHERE;
+    return face_fits(c, ray, leaf, face, end) ? FITS : FIT_FACE;
 }
 
 // Does the leaf hold the point at near?
-static const char *check_cap(const struct comparison *c, const struct oracle_ray *ray,
-                             struct oracle_end end, uint32_t leaf)
+static enum fit check_cap(const struct comparison *c, const struct oracle_ray *ray,
+                          struct oracle_end end, uint32_t leaf)
 {
     if (!within(c->rays->near, end, c->tolerance))
-        return "a cap away from near";
+        return FIT_CAP_ELSEWHERE;
     if (leaf >= c->oracle->leaf_count)
-        return "no such leaf";
+        return FIT_NO_LEAF;
     int before = 0, after = 0;
     for (uint32_t i = 0; i < ray->crossing_count; i++) {
         const struct oracle_crossing *x = &ray->crossings[i];
@@ -66,54 +81,54 @@ static const char *check_cap(const struct comparison *c, const struct oracle_ray
         if (x->leaf == leaf && x->depth <= c->rays->near + c->tolerance)
             after += x->delta;
     }
-    return before > 0 || after > 0 ? NULL : "the owner of the cap is not there";
+    return before > 0 || after > 0 ? FITS : FIT_CAP_OWNER;
 }
 
-static const char *check_enter(const struct comparison *c, const struct oracle_ray *ray,
-                               struct oracle_end end, double depth, uint32_t leaf, uint32_t face)
+static enum fit check_enter(const struct comparison *c, const struct oracle_ray *ray,
+                            struct oracle_end end, double depth, uint32_t leaf, uint32_t face)
 {
     if (!within(depth, end, c->tolerance))
-        return "solid begins elsewhere";
+        return FIT_ENTER;
     return face == SURFACE_CAP ? check_cap(c, ray, end, leaf)
                                : check_owner(c, ray, end, leaf, face, 1);
 }
 
-static const char *check_spans(const struct comparison *c, const struct oracle_ray *ray,
-                               const struct oracle_answer *a, const struct pixel_spans *device)
+static enum fit check_spans(const struct comparison *c, const struct oracle_ray *ray,
+                            const struct oracle_answer *a, const struct pixel_spans *device)
 {
     if (device->visits != 1)
-        return "the pixel was not given once";
+        return FIT_VISITS;
     if (device->count != a->count)
-        return "another number of spans";
+        return FIT_SPANS;
     for (uint32_t i = 0; i < a->count; i++) {
         const struct oracle_span *truth = &a->spans[i];
         const struct span *s = &device->items[i];
-        const char *reason = check_enter(c, ray, truth->enter, s->enter + c->rays->reference,
-                                         s->enter_leaf, s->enter_face);
+        enum fit reason = check_enter(c, ray, truth->enter, s->enter + c->rays->reference,
+                                      s->enter_leaf, s->enter_face);
         if (reason)
             return reason;
         if (!within(s->leave + c->rays->reference, truth->leave, c->tolerance))
-            return "solid ends elsewhere";
+            return FIT_LEAVE;
         if (s->leave_leaf == SURFACE_NONE) {
             if (!within(c->rays->far, truth->leave, c->tolerance))
-                return "open end away from far";
+                return FIT_OPEN_END;
             continue;
         }
         reason = check_owner(c, ray, truth->leave, s->leave_leaf, s->leave_face, -1);
         if (reason)
             return reason;
     }
-    return NULL;
+    return FITS;
 }
 
-static const char *check_pixel(const struct comparison *c, const struct oracle_ray *ray,
-                               const struct oracle_answer *a, const struct picture *p, int i)
+static enum fit check_pixel(const struct comparison *c, const struct oracle_ray *ray,
+                            const struct oracle_answer *a, const struct picture *p, int i)
 {
     bool hit = p->image.leaf[i] != SURFACE_NONE;
     if (hit != (a->count > 0))
-        return hit ? "a surface where there is none" : "a surface is missing";
+        return hit ? FIT_EXTRA : FIT_MISSING;
     if (hit) {
-        const char *reason =
+        enum fit reason =
             check_enter(c, ray, a->spans[0].enter, p->image.depth[i] + c->rays->reference,
                         p->image.leaf[i], p->image.face[i]);
         if (reason)
@@ -187,9 +202,15 @@ enum verdict compare_pixel(struct comparison *c, const struct picture *p, int x,
 {
     oracle_cast(c->oracle, c->rays, x, y, &c->ray);
     oracle_spans(&c->ray, c->epsilon, &c->answer);
+    c->strict = true;
     c->reason = check_pixel(c, &c->ray, &c->answer, p, y * c->rays->width + x);
     if (!c->reason)
         return VERDICT_AGREES;
+    c->strict = false;
+    enum fit loose = check_pixel(c, &c->ray, &c->answer, p, y * c->rays->width + x);
+    if (!loose)
+        return VERDICT_TURNED;
+    c->reason = loose;
     if (!compare_unstable(c, x, y))
         return VERDICT_WRONG;
     return explained(c, p, x, y) ? VERDICT_FORGIVEN : VERDICT_UNEXPLAINED;

@@ -7,8 +7,28 @@
 #pragma once
 #include "subject.h"
 
+enum fit { // what does not fit
+    FITS,
+    FIT_NO_LEAF,
+    FIT_OWNER_TURNED,
+    FIT_OWNER_ELSEWHERE,
+    FIT_FACE,
+    FIT_CAP_ELSEWHERE,
+    FIT_CAP_OWNER,
+    FIT_ENTER,
+    FIT_LEAVE,
+    FIT_VISITS,
+    FIT_SPANS,
+    FIT_OPEN_END,
+    FIT_EXTRA,
+    FIT_MISSING,
+    FITS_COUNT
+};
+extern const char *const fit_text[FITS_COUNT];
+
 enum verdict {
     VERDICT_AGREES,
+    VERDICT_TURNED,      // but the owner of an end faces the wrong way for it
     VERDICT_FORGIVEN,    // unstable, and one of the answers nearby
     VERDICT_UNEXPLAINED, // unstable, and none of them
     VERDICT_WRONG,
@@ -22,7 +42,8 @@ struct comparison { // {0} but for what is borrowed; one per thread
     double tolerance; // of depth
     struct oracle_ray ray, other;
     struct oracle_answer answer, trial;
-    const char *reason; // what did not fit at the pixel itself
+    enum fit reason; // at the pixel itself
+    bool strict;     // owners must face the right way
 };
 
 enum verdict compare_pixel(struct comparison *c, const struct picture *p, int x, int y);

@@ -39,8 +39,13 @@ void report_pixel(FILE *out, const struct comparison *c, const struct picture *p
     }
 }
 
-static enum verdict judge(const struct random_scene *scene, const struct render_settings *settings,
-                          int x, int y, FILE *out)
+struct judgement {
+    enum verdict verdict;
+    enum fit reason;
+};
+
+static struct judgement judge(const struct random_scene *scene,
+                              const struct render_settings *settings, int x, int y, FILE *out)
 {
     struct subject subject;
     struct picture picture;
@@ -51,10 +56,11 @@ static enum verdict judge(const struct random_scene *scene, const struct render_
     oracle_init(&oracle, leaves, scene->leaf_count, scene->tokens, scene->token_count);
     struct comparison c = {
         .oracle = &oracle, .rays = &scene->rays, .epsilon = settings->epsilon, .tolerance = 2e-3};
-    enum verdict verdict = compare_pixel(&c, &picture, x, y);
+    struct judgement result = {.verdict = compare_pixel(&c, &picture, x, y)};
+    result.reason = c.reason;
     if (out) {
         compare_pixel(&c, &picture, x, y); // once more: judging cast other rays
-        fprintf(out, "  reason: %s\n", c.reason ? c.reason : "none");
+        fprintf(out, "  reason: %s\n", fit_text[c.reason]);
         report_pixel(out, &c, &picture, x, y);
     }
     compare_free(&c);
@@ -62,44 +68,74 @@ static enum verdict judge(const struct random_scene *scene, const struct render_
     free(leaves);
     picture_free(&picture);
     subject_free(&subject);
-    return verdict;
+    return result;
+}
+
+// The expression with the empty operands left out.
+static void print_expression(FILE *out, const struct random_scene *s)
+{
+    char **stack = mem_zalloc((s->token_count + 1) * sizeof *stack);
+    uint32_t top = 0;
+    for (uint32_t i = 0; i < s->token_count; i++) {
+        struct expr_token t = s->tokens[i];
+        char *text = NULL, *joined;
+        if (t.op == EXPR_LEAF && asprintf(&text, "%u", t.arg) < 0)
+            abort();
+        bool empty = t.op == EXPR_DIFFERENCE && t.arg && !stack[top - t.arg];
+        for (uint32_t k = top - (t.op == EXPR_LEAF ? 0 : t.arg); k < top; k++) {
+            empty |= t.op == EXPR_INTERSECTION && !stack[k];
+            if (stack[k] && text) {
+                const char *sign = t.op == EXPR_UNION ? "+" : t.op == EXPR_DIFFERENCE ? "-" : "*";
+                if (asprintf(&joined, "(%s %s %s)", text, sign, stack[k]) < 0)
+                    abort();
+                free(text);
+                free(stack[k]);
+                text = joined;
+            } else if (stack[k]) {
+                text = stack[k];
+            }
+        }
+        top -= t.op == EXPR_LEAF ? 0 : t.arg;
+        if (empty)
+            free(text);
+        stack[top++] = empty ? NULL : text;
+    }
+    fprintf(out, "  %s\n", top && stack[0] ? stack[0] : "empty");
+    if (top)
+        free(stack[0]);
+    free(stack);
 }
 
 static void print_scene(FILE *out, const struct random_scene *s)
 {
     for (uint32_t i = 0; i < s->token_count; i++) {
         struct expr_token t = s->tokens[i];
-        if (t.op != EXPR_LEAF) {
-            fprintf(out, "  %c%u",
-                    t.op == EXPR_UNION          ? '+'
-                    : t.op == EXPR_INTERSECTION ? '*'
-                                                : '-',
-                    t.arg);
+        if (t.op != EXPR_LEAF)
             continue;
-        }
         const struct random_leaf *leaf = &s->leaves[t.arg];
         const struct random_mesh *mesh = &s->meshes[leaf->mesh];
         const double(*m)[4] = leaf->to_world.m;
-        fprintf(out, "\n  leaf %u: %s fn=%d %s\n", t.arg, shape_names[mesh->shape], mesh->fn,
+        fprintf(out, "  leaf %u: %s fn=%d %s\n", t.arg, shape_names[mesh->shape], mesh->fn,
                 mesh->convex ? "convex" : "mesh");
         for (int r = 0; r < 3; r++)
             fprintf(out, "    %.17g %.17g %.17g %.17g\n", m[r][0], m[r][1], m[r][2], m[r][3]);
     }
-    fprintf(out, "\n");
+    print_expression(out, s);
 }
 
 void report_smallest(FILE *out, struct random_scene *scene, const struct render_settings *settings,
                      int x, int y)
 {
-    enum verdict whole = judge(scene, settings, x, y, out);
-    if (whole < VERDICT_UNEXPLAINED)
+    struct judgement whole = judge(scene, settings, x, y, out);
+    if (whole.verdict == VERDICT_AGREES)
         return;
     for (uint32_t i = 0; i < scene->token_count; i++) {
         struct expr_token kept = scene->tokens[i];
         if (kept.op != EXPR_LEAF)
             continue;
         scene->tokens[i] = (struct expr_token){EXPR_UNION, 0};
-        if (judge(scene, settings, x, y, NULL) != whole)
+        struct judgement now = judge(scene, settings, x, y, NULL);
+        if (now.verdict != whole.verdict || now.reason != whole.reason)
             scene->tokens[i] = kept;
     }
     fprintf(out, "smallest:\n");

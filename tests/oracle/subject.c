@@ -118,7 +118,8 @@ static void collect(void *context, uint32_t worker, const struct span_block *blo
             p->count = block->first[i + 1] - block->first[i];
             free(p->items);
             p->items = mem_alloc((p->count + 1) * sizeof *p->items);
-            memcpy(p->items, block->spans + block->first[i], p->count * sizeof *p->items);
+            for (uint32_t k = 0; k < p->count; k++)
+                p->items[k] = block->spans[block->first[i] + k];
         }
 }
 

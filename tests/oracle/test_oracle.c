@@ -26,7 +26,8 @@ struct outcome {
     bool aligned;
     int x, y; // first pixel that is wrong, or unexplained when none is wrong
     enum verdict worst;
-    const char *reason;
+    enum fit reason;
+    uint64_t reasons[FITS_COUNT]; // of pixels that are not forgiven
 };
 
 static void compare_picture(struct outcome *out, struct comparison *c, const struct picture *p)
@@ -37,7 +38,9 @@ static void compare_picture(struct outcome *out, struct comparison *c, const str
             out->pixels++;
             out->hits += c->answer.count > 0;
             out->verdicts[v]++;
-            if (v > out->worst && v >= VERDICT_UNEXPLAINED) {
+            if (v != VERDICT_AGREES && v != VERDICT_FORGIVEN)
+                out->reasons[c->reason]++;
+            if (v > out->worst) {
                 out->worst = v;
                 out->x = x;
                 out->y = y;
@@ -99,6 +102,8 @@ static void add_outcome(struct outcome *sum, const struct outcome *o)
     sum->open += o->open;
     for (int i = 0; i < VERDICTS; i++)
         sum->verdicts[i] += o->verdicts[i];
+    for (int i = 0; i < FITS_COUNT; i++)
+        sum->reasons[i] += o->reasons[i];
 }
 
 static double percent(uint64_t part, uint64_t whole)
@@ -108,20 +113,26 @@ static double percent(uint64_t part, uint64_t whole)
 
 static void print_outcome(const char *name, const struct outcome *o)
 {
-    printf("%s: %llu pixels, %.1f %% hit, %llu forgiven (%.4f %%), %llu unexplained, %llu wrong, "
+    printf("%s: %llu pixels, %.1f %% hit, %llu forgiven (%.4f %%), %llu turned, %llu unexplained, "
+           "%llu "
+           "wrong, "
            "%.3f %% unstable, %llu open rays\n",
            name, (unsigned long long)o->pixels, percent(o->hits, o->pixels),
            (unsigned long long)o->verdicts[VERDICT_FORGIVEN],
            percent(o->verdicts[VERDICT_FORGIVEN], o->pixels),
+           (unsigned long long)o->verdicts[VERDICT_TURNED],
            (unsigned long long)o->verdicts[VERDICT_UNEXPLAINED],
            (unsigned long long)o->verdicts[VERDICT_WRONG], percent(o->unstable, o->probed),
            (unsigned long long)o->open);
+    for (int i = 1; i < FITS_COUNT; i++)
+        if (o->reasons[i])
+            printf("  %llu pixels: %s\n", (unsigned long long)o->reasons[i], fit_text[i]);
 }
 
 // Excluded pixels must stay rare, or the comparison would prove little.
 static bool acceptable(const struct outcome *o, bool aligned)
 {
-    return o->verdicts[VERDICT_WRONG] == 0 && o->open == 0 &&
+    return o->verdicts[VERDICT_WRONG] == 0 && o->verdicts[VERDICT_TURNED] == 0 && o->open == 0 &&
            percent(o->verdicts[VERDICT_FORGIVEN], o->pixels) < (aligned ? 100 : 0.5) &&
            percent(o->verdicts[VERDICT_UNEXPLAINED], o->pixels) < (aligned ? 0.5 : 0.001) &&
            (aligned || percent(o->unstable, o->probed) < 2);
@@ -138,7 +149,8 @@ static int run_random(const struct options *options)
         const struct outcome *o = &outcomes[i];
         add_outcome(&sum[o->aligned], o);
         empty += o->hits == 0;
-        bool wrong = o->worst == VERDICT_WRONG || (o->worst == VERDICT_UNEXPLAINED && !o->aligned);
+        bool wrong = o->verdicts[VERDICT_WRONG] || o->verdicts[VERDICT_TURNED] ||
+                     (o->verdicts[VERDICT_UNEXPLAINED] && !o->aligned);
         if ((wrong || o->open) && shown++ < 30)
             printf(
                 "seed %llu: %llu wrong, %llu unexplained, %llu open rays, %s: --seed %llu --pixel "
@@ -146,7 +158,7 @@ static int run_random(const struct options *options)
                 (unsigned long long)(options->seed + i),
                 (unsigned long long)o->verdicts[VERDICT_WRONG],
                 (unsigned long long)o->verdicts[VERDICT_UNEXPLAINED], (unsigned long long)o->open,
-                o->reason ? o->reason : "", (unsigned long long)(options->seed + i), o->x, o->y);
+                fit_text[o->reason], (unsigned long long)(options->seed + i), o->x, o->y);
     }
     printf("%u trees from seed %llu, %u of them without a surface, %u with errors\n",
            options->count, (unsigned long long)options->seed, empty, shown);
@@ -276,7 +288,7 @@ static int run_file(const char *path, int width, int height)
             snprintf(name, sizeof name, "body %u view %d", b, view);
             print_outcome(name, &o);
             if (o.worst == VERDICT_WRONG)
-                printf("  pixel %d %d: %s\n", o.x, o.y, o.reason);
+                printf("  pixel %d %d: %s\n", o.x, o.y, fit_text[o.reason]);
             failed += !acceptable(&o, view % 2);
             free(tokens);
         }
