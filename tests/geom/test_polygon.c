@@ -1,0 +1,152 @@
+// test_polygon.c - cutting polygons into triangles.
+#include "geom/polygon.h"
+#include "unit.h"
+
+// Cuts the polygon of all given points; the mesh holds the result.
+static bool cut(struct mesh_builder *b, const struct vec3 *points, uint32_t count)
+{
+    struct polygon_cutter *c = polygon_cutter_new();
+    uint32_t *corners = mem_alloc(count * sizeof *corners);
+    *b = (struct mesh_builder){0};
+    for (uint32_t i = 0; i < count; i++)
+        corners[i] = mesh_add_vertex(b, points[i]);
+    bool ok = polygon_cut(c, b, corners, count);
+    free(corners);
+    polygon_cutter_delete(c);
+    return ok;
+}
+
+// Area seen along -z, positive when counter-clockwise.
+static double area(const struct mesh *m)
+{
+    double twice = 0;
+    for (uint32_t t = 0; t < m->triangle_count; t++) {
+        struct vec3 a = m->vertices[m->triangles[t][0]];
+        twice += vec3_cross(vec3_sub(m->vertices[m->triangles[t][1]], a),
+                            vec3_sub(m->vertices[m->triangles[t][2]], a))
+                     .z;
+    }
+    return twice / 2;
+}
+
+static void concave_polygon_keeps_its_area(void **state)
+{
+    (void)state;
+    const struct vec3 arrow[] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}};
+    struct mesh_builder b;
+    assert_true(cut(&b, arrow, 5));
+    assert_int_equal(b.mesh.triangle_count, 3);
+    assert_int_equal(b.mesh.face_count, 1);
+    assert_close(area(&b.mesh), 10, 1e-12);
+    mesh_free(&b.mesh);
+
+    const struct vec3 dart[] = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}}; // a concave quad
+    assert_true(cut(&b, dart, 4));
+    assert_int_equal(b.mesh.triangle_count, 2);
+    assert_close(area(&b.mesh), 4, 1e-12);
+    mesh_free(&b.mesh);
+
+    const struct vec3 down[] = {{0, 4, 0}, {2, 1, 0}, {4, 4, 0}, {4, 0, 0}, {0, 0, 0}};
+    assert_true(cut(&b, down, 5));
+    assert_close(area(&b.mesh), -10, 1e-12);
+    mesh_free(&b.mesh);
+}
+
+static void crossings_become_vertices(void **state)
+{
+    (void)state;
+    struct vec3 star[5]; // the middle counts twice: outside
+    for (int i = 0; i < 5; i++)
+        star[i] = (struct vec3){cos(i * 4 * M_PI / 5), sin(i * 4 * M_PI / 5), 3};
+    struct mesh_builder b;
+    assert_true(cut(&b, star, 5));
+    assert_int_equal(b.mesh.vertex_count, 10);
+    assert_close(area(&b.mesh), 1.12257 - 0.34694, 1e-4);
+    mesh_free(&b.mesh);
+}
+
+static void bent_quads_take_the_better_diagonal(void **state)
+{
+    (void)state;
+    const struct vec3 bent[] = {{0, 0, 0}, {4, 0, 1}, {4.5, 1, 0}, {0.5, 1, 1}};
+    struct mesh_builder b;
+    assert_true(cut(&b, bent, 4));
+    assert_int_equal(b.mesh.triangle_count, 2);
+    assert_int_equal(b.mesh.face_count, 2);
+    for (int t = 0; t < 2; t++) { // both use the short diagonal 1-3
+        bool has[4] = {0};
+        for (int i = 0; i < 3; i++)
+            has[b.mesh.triangles[t][i]] = true;
+        assert_true(has[1] && has[3]);
+    }
+    mesh_free(&b.mesh);
+}
+
+static void rounded_numbers_stay_one_face(void **state)
+{
+    (void)state;
+    const struct vec3 p[] = {
+        {10, 0, 1.23457}, {12, 0, 1.23456}, {12, 5, 1.23457}, {11, 7, 1.23457}, {10, 5, 1.23456}};
+    struct mesh_builder b;
+    assert_true(cut(&b, p, 5));
+    assert_int_equal(b.mesh.face_count, 1);
+    mesh_free(&b.mesh);
+}
+
+static void corners_on_an_edge_are_kept(void **state)
+{
+    (void)state;
+    const struct vec3 p[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 1, 0}};
+    struct mesh_builder b;
+    assert_true(cut(&b, p, 6));
+    assert_close(area(&b.mesh), 4, 1e-12);
+    bool used[6] = {0};
+    for (uint32_t t = 0; t < b.mesh.triangle_count; t++)
+        for (int i = 0; i < 3; i++)
+            used[b.mesh.triangles[t][i]] = true;
+    for (int i = 0; i < 6; i++)
+        assert_true(used[i]);
+    mesh_free(&b.mesh);
+}
+
+static void nonsense_is_refused_or_harmless(void **state)
+{
+    (void)state;
+    struct mesh_builder b;
+    const struct vec3 same[] = {{1, 1, 1}, {1, 1, 1}, {2, 1, 1}, {1, 1, 1}};
+    assert_false(cut(&b, same, 4));
+    assert_int_equal(b.mesh.triangle_count, 0);
+    mesh_free(&b.mesh);
+    const struct vec3 line[] = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {1.5, 1.5, 1.5}};
+    assert_true(cut(&b, line, 5)); // without area, but it closes a seam
+    assert_close(area(&b.mesh), 0, 1e-12);
+    mesh_free(&b.mesh);
+    const struct vec3 huge[] = {
+        {0, 0, 0}, {1e200, 0, 0}, {1e200, 1e200, 0}, {5e199, 1e199, 0}, {0, 1e200, 0}};
+    cut(&b, huge, 5);
+    mesh_free(&b.mesh);
+    struct vec3 noise[60];
+    uint64_t seed = 3;
+    for (int round = 0; round < 50; round++) {
+        for (int i = 0; i < 60; i++) {
+            seed = seed * 6364136223846793005u + 1442695040888963407u;
+            noise[i] = (struct vec3){(double)(seed >> 60), (double)(seed >> 56 & 15), 0};
+        }
+        cut(&b, noise, 60);
+        mesh_weld(&b.mesh);
+        mesh_free(&b.mesh);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(concave_polygon_keeps_its_area),
+        cmocka_unit_test(crossings_become_vertices),
+        cmocka_unit_test(bent_quads_take_the_better_diagonal),
+        cmocka_unit_test(rounded_numbers_stay_one_face),
+        cmocka_unit_test(corners_on_an_edge_are_kept),
+        cmocka_unit_test(nonsense_is_refused_or_harmless),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
