@@ -1,0 +1,183 @@
+#!/bin/bash
+# view.sh PROGRAM CASE - hcsg-view on a virtual screen, driven like a user does. Exits 77 without one.
+set -u
+program=$1 case=$2
+for tool in xvfb-run xdotool import compare; do
+    command -v $tool > /dev/null || { echo "SKIP: no $tool"; exit 77; }
+done
+if [ -z "${HCSG_VIEW_SCREEN:-}" ]; then
+    export HCSG_VIEW_SCREEN=1 LIBGL_ALWAYS_SOFTWARE=1
+    exec xvfb-run -a -s "-screen 0 640x480x24" "$0" "$@"
+fi
+
+work=$(mktemp -d)
+cd "$work" || exit 1
+pid=
+trap '[ -n "$pid" ] && kill -9 $pid 2> /dev/null; rm -rf "$work"' EXIT
+
+fail() {
+    echo "FAIL: $*"
+    echo "--- standard output"; tail -30 out
+    echo "--- standard error"; tail -30 err
+    exit 1
+}
+start() {
+    "$program" --size=640,480 --stats "$@" > out 2> err &
+    pid=$!
+}
+# wait_for FILE TEXT: until a line of FILE has TEXT in it.
+wait_for() {
+    for _ in $(seq 1000); do
+        grep -q -e "$2" "$1" && return
+        kill -0 $pid 2> /dev/null || fail "the program ended before '$2' came"
+        sleep 0.02
+    done
+    fail "'$2' did not come"
+}
+# shot NAME: the screen, as soon as nothing was drawn for a while.
+shot() {
+    local before=
+    while [ "$before" != "$(wc -l < out)" ]; do
+        before=$(wc -l < out)
+        sleep 0.4
+    done
+    import -window root "$1.png"
+}
+# differing A B [REGION]: number of pixels that are not the same.
+differing() {
+    convert "$1.png" -crop "${3:-640x480+0+0}" +repage 1.ppm
+    convert "$2.png" -crop "${3:-640x480+0+0}" +repage 2.ppm
+    compare -metric AE 1.ppm 2.ppm null: 2>&1 | sed 's/[^0-9].*//'
+}
+same() { [ "$(differing "$@")" -eq 0 ] || fail "pictures $1 and $2 differ ${3:-}"; }
+differ() { [ "$(differing "$@")" -gt 300 ] || fail "pictures $1 and $2 are the same ${3:-}"; }
+quit() {
+    xdotool key q
+    wait $pid || fail "exit code $? after the key q"
+    pid=
+}
+# A block of this length with a post on it.
+box() {
+    echo "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(size = [$1, 10, 10]); }"
+    echo "cube(size = [3, 4, 15]);"
+}
+above=640x340+0+0 # where no message stands
+
+case $case in
+reload)
+    box 24 > a.csg
+    start a.csg
+    wait_for out "load 1:"; shot first
+    box 16 > a.csg
+    wait_for out "load 2:"; shot second; differ first second
+    box 16 | head -c 60 > a.csg # broken
+    wait_for err "a.csg:1"; shot broken
+    same second broken $above; differ second broken 640x140+0+340
+    box 24 > new; mv new a.csg
+    wait_for out "load 3:"; shot third; same first third
+    rm a.csg
+    wait_for err "a.csg: No such file"; shot gone; same first gone $above
+    box 16 > a.csg
+    wait_for out "load 4:"; shot fourth; same second fourth
+    errors=$(wc -l < err) # half a file first, the rest soon
+    box 12 > whole
+    head -c 40 whole > a.csg; sleep 0.06; tail -c +41 whole >> a.csg
+    wait_for out "load 5:"; shot fifth; differ second fifth
+    [ "$errors" = "$(wc -l < err)" ] || fail "a half-written file was reported"
+    : > a.csg # an empty design, after a while
+    wait_for out "load 6:"; shot empty; differ fifth empty
+    quit
+    ;;
+camera)
+    box 20 > a.csg
+    start a.csg
+    wait_for out "load 1:"; shot first
+    xdotool mousemove 300 200 mousedown 1 mousemove 330 210 mousemove 360 220 mouseup 1
+    shot turned; differ first turned
+    xdotool key r; shot reset; same first reset
+    xdotool mousemove 300 200 mousedown 3 mousemove 330 210 mousemove 360 220 mouseup 3
+    shot moved; differ first moved
+    xdotool key v; shot all; same first all
+    xdotool mousemove 200 200 click 4 click 4; shot near; differ first near
+    xdotool click 5 click 5 # the wheel takes back what it did
+    shot far; [ "$(differing first far)" -lt 300 ] || fail "zooming does not come back"
+    xdotool mousedown 2 mousemove 200 260 mouseup 2; shot along; differ first along
+    xdotool key r key o; shot parallel; differ first parallel
+    xdotool key o; previous=first
+    for key in 4 5 6 7 8 9; do
+        xdotool key ctrl+$key; shot view$key; differ $previous view$key; previous=view$key
+    done
+    xdotool key ctrl+0 key ctrl+shift+v; shot diagonal; same first diagonal
+    xdotool key h; shot help; differ first help
+    xdotool key h key c key p; wait_for out "^--camera=.*,55,0,25,"; wait_for out "^a-1.png"
+    [ "$(identify -format '%wx%h' a-1.png)" = 640x480 ] || fail "the saved picture has a wrong size"
+    same first a-1
+    box 15 > a.csg # the camera stays over a reload
+    wait_for out "load 2:"
+    quit
+    ;;
+idle)
+    box 20 > a.csg
+    start a.csg
+    wait_for out "load 1:"; shot first
+    ticks() { awk '{ print $14 + $15 }' /proc/$pid/stat; }
+    begin=$(ticks); sleep 4; used=$(($(ticks) - begin))
+    [ $used -le 4 ] || fail "$used of 400 ticks used while nothing happened"
+    kill -TERM $pid; wait $pid || fail "exit code $? after SIGTERM"
+    pid=
+    ;;
+scad)
+    cat > played << 'EOF'
+#!/bin/sh
+# "slow": waits before it exports; "wrong": does not export; otherwise the design is the export.
+echo begin >> log
+if grep -q slow "$5"; then sleep 30; fi
+if grep -q wrong "$5"; then echo "ERROR: no good in file p.scad, line 1" >&2; exit 1; fi
+cat "$5" part > "$2"
+printf '%s: \\\n\t%s/part \\\n\t%s\n' "$2" "$PWD" "$5" > "$4"
+echo end >> log
+EOF
+    chmod +x played
+    box 10 > p.scad; : > part
+    start --openscad ./played p.scad
+    wait_for out "load 1:"; shot first
+    box 20 > part # a file that the design depends on
+    wait_for out "load 2:"; shot second; differ first second
+    echo wrong > p.scad
+    wait_for err "p.scad:1: no good"; shot wrong; same second wrong $above
+    echo slow > p.scad; sleep 0.5
+    : > part; box 10 > p.scad # kills the slow one
+    wait_for out "load 3:"; shot third; same first third
+    [ "$(grep -c begin log)" -ge 4 ] || fail "openscad was not started anew"
+    echo slow > p.scad; sleep 0.3
+    quit # while openscad runs
+    [ -z "$(pgrep -f "$work/played" || true)" ] || fail "openscad outlives the window"
+    ;;
+errors)
+    expect() { # CODE TEXT ARGUMENTS
+        local code=$1 text=$2; shift 2
+        timeout 20 "$program" "$@" > out 2> err; local got=$?
+        [ $got = "$code" ] || fail "$*: exit code $got, expected $code"
+        grep -q -e "$text" err || fail "$*: no '$text'"
+        [ "$(wc -l < err)" -le 3 ] || fail "$*: more than one message"
+    }
+    box 10 > a.csg; echo "cube(" > broken.csg
+    expect 1 "expected one file"
+    expect 1 "none.csg: No such file" none.csg
+    expect 1 "is a folder" .
+    expect 1 "standard input" -
+    expect 1 "size=3" --size=3 a.csg
+    expect 1 "projection=x" --projection=x a.csg
+    expect 1 "camera" --camera=1,2 a.csg
+    expect 1 "Cornfield" --colorscheme=none a.csg
+    expect 1 "broken.csg:1" --no-watch broken.csg
+    box 10 > a.scad; expect 1 "no such file" --no-watch --openscad /no/openscad a.scad
+    unset DISPLAY WAYLAND_DISPLAY
+    expect 2 "cannot open a window" a.csg
+    ;;
+*)
+    echo "no case $case"
+    exit 1
+    ;;
+esac
+echo "$case: fine"
