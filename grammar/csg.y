@@ -31,7 +31,7 @@ static bool negate(struct csg_parser *p, const char *sign, struct csg_value *val
     uint8_t modifiers;
 }
 
-%token <value> NUMBER "a number" NUMBERS "a vector" STRING "a string" BOOL "true or false"
+%token <value> NUMBER "a number" VECTOR "a vector" STRING "a string" BOOL "true or false"
 %token <value> UNDEF "undef"
 %token <name> NAME "a name"
 %token <modifiers> MODIFIERS "a modifier"
@@ -124,7 +124,7 @@ argument:
 ;
 value:
     NUMBER
-  | NUMBERS
+  | VECTOR
   | STRING
   | BOOL
   | UNDEF
@@ -183,16 +183,18 @@ static void describe_expected(const bool *expected, char *out, size_t size)
         YYSYMBOL_EQUALS, YYSYMBOL_SEMICOLON, YYSYMBOL_OPEN,
     };
     size_t used = 0;
+    bool value = expected[YYSYMBOL_STRING];
 
     *out = 0;
     if (expected[YYSYMBOL_CLOSE] || expected[YYSYMBOL_YYEOF])
         return; /* between statements: nearly anything */
-    if (expected[YYSYMBOL_STRING])
+    if (value)
         used = (size_t)snprintf(out, size, "a value");
     else if (expected[YYSYMBOL_NAME] && !expected[YYSYMBOL_SEMICOLON])
         used = (size_t)snprintf(out, size, "a name");
     for (size_t i = 0; i < array_count(order) && used < size; i++)
-        if (expected[order[i]] && !(order[i] == YYSYMBOL_LEFT && expected[YYSYMBOL_STRING]))
+        if (expected[order[i]] && !(value && (order[i] == YYSYMBOL_COMMA ||
+                                              order[i] == YYSYMBOL_LEFT)))
             used += (size_t)snprintf(out + used, size - used, "%s'%s'", used ? " or " : "",
                                      yysymbol_name(order[i]));
 }
@@ -210,9 +212,9 @@ static int yyreport_syntax_error(const yypcontext_t *context, void *scanner, str
     describe_expected(expected, words, sizeof words);
     if (token == YYSYMBOL_YYEOF && expected[YYSYMBOL_CLOSE] && p->brace_count)
         csg_error(p, p->braces[p->brace_count - 1], "this '{' is never closed: '}' is missing");
-    else if (token == YYSYMBOL_OPERATOR || (!expected[YYSYMBOL_NAME] &&
-                                            (token == YYSYMBOL_MODIFIERS ||
-                                             token == YYSYMBOL_PLUS || token == YYSYMBOL_MINUS)))
+    else if (!expected[YYSYMBOL_NAME] &&
+             (token == YYSYMBOL_OPERATOR || token == YYSYMBOL_MODIFIERS ||
+              token == YYSYMBOL_PLUS || token == YYSYMBOL_MINUS))
         csg_error_scad(p, p->token, "a calculation");
     else
         csg_error_token(p, words);

@@ -75,6 +75,8 @@ void csg_error_token(struct csg_parser *p, const char *expected)
 {
     char words[80];
 
+    if (p->previous_end == p->unclosed_end)
+        return; // nothing that follows fits, and the cause has been told
     token_words(p, words, sizeof words);
     if (!*expected)
         csg_error(p, p->token, "unexpected %s", words);
@@ -93,8 +95,7 @@ void csg_error_scad(struct csg_parser *p, const char *at, const char *what)
     if (!what)
         token_words(p, words, sizeof words);
     csg_error(p, at,
-              "%s stands only in OpenSCAD source, not in an exported .csg: "
-              "open the .scad file itself",
+              "%s belongs to OpenSCAD source, not to an exported .csg: open the .scad file itself",
               what ? what : words);
     p->stop = true;
 }
@@ -107,8 +108,8 @@ void csg_error_name(struct csg_parser *p, struct csg_name name)
     for (; line < name.line; line++)
         at = (const char *)memchr(at, '\n', (size_t)(p->end - at)) + 1;
     csg_error(p, at + name.column - 1,
-              "'%.40s' is no value: variables and functions stand only in OpenSCAD source, not in "
-              "an exported .csg: open the .scad file itself",
+              "'%.40s' is no value: variables and functions belong to OpenSCAD source, not to an "
+              "exported .csg: open the .scad file itself",
               name.text);
     p->stop = true;
 }
@@ -126,8 +127,8 @@ static void run(struct csg_parser *p, char *text, size_t size)
     p->line = 1;
     if (zero) {
         struct place place = {.file = p->tree.file};
-        messages_add(p->messages, MESSAGE_ERROR, place,
-                     "is not a text file: byte %zu of it is zero", (size_t)(zero - text) + 1);
+        messages_add(p->messages, MESSAGE_ERROR, place, "not a text file: byte %zu is zero",
+                     (size_t)(zero - text) + 1);
         p->errors++;
         return;
     }

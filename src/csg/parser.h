@@ -29,6 +29,7 @@ struct csg_parser {
     const char *token_end;    // past it
     const char *previous_end; // past the token before it
     const char *no_raw_end;   // no raw string ends before here (see csg_scan_string)
+    const char *unclosed_end;    // where the newest unclosed string was given up
     uint32_t errors;
     bool stop;                  // the scanner says end of file from now on
     locale_t c_locale;          // for the numbers that need strtod, made on demand
@@ -55,7 +56,8 @@ void csg_scanner_show(struct csg_parser *p, bool show);
 // Tokens, scan.c.
 double csg_scan_number(struct csg_parser *p, const char *text, const char **end);
 double csg_scan_hex(const char *text); // "0x1F"; stops at what is no digit
-struct csg_value csg_scan_numbers(struct csg_parser *p, const char *text, const char *end);
+struct csg_value csg_scan_vector(struct csg_parser *p, const char **at);
+struct csg_value csg_scan_matrix(struct csg_parser *p, const char *text, const char *end);
 // The string whose opening quote is at `quote`. Returns where it ends, past the closing quote.
 const char *csg_scan_string(struct csg_parser *p, const char *quote, struct csg_value *value);
 void csg_count_lines(struct csg_parser *p, const char *from, const char *to);

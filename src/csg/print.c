@@ -33,14 +33,22 @@ struct printer {
 // C++ streams: "%g", whatever the locale (see csg_print).
 static void put_stream(FILE *out, double v)
 {
-    if (fabs(v) < 1000000 && v == (int)v && (v != 0 || !signbit(v)))
-        fprintf(out, "%d", (int)v);
-    else
-        fprintf(out, "%g", v);
+    fprintf(out, "%g", v);
 }
 
-// double-conversion's ToPrecision of 6 digits without trailing zeros: exponents without padding,
-// plain digits down to 1e-5, no negative zero, no sign on nan.
+// Exactly between two numbers of 6 digits?
+static bool is_tie(double v)
+{
+    char text[64];
+
+    if (!isfinite(v) || (v == floor(v) && fabs(v) < 1000000))
+        return false;
+    snprintf(text, sizeof text, "%.40e", fabs(v));
+    return text[7] == '5' && strspn(text + 8, "0") == 34;
+}
+
+// double-conversion's ToPrecision of 6 digits without trailing zeros: ties away from zero,
+// exponents without padding, plain digits down to 1e-5, no negative zero, no sign on nan.
 static void put_shortest(FILE *out, double v)
 {
     char text[32];
@@ -49,6 +57,8 @@ static void put_shortest(FILE *out, double v)
         fputs(v == 0 ? "0" : "nan", out);
         return;
     }
+    if (is_tie(v))
+        v = nextafter(v, copysign(INFINITY, v));
     if (isinf(v) || fabs(v) >= 1e-4) {
         snprintf(text, sizeof text, "%g", v);
         char *e = strchr(text, 'e');

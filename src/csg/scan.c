@@ -85,26 +85,26 @@ double csg_scan_hex(const char *text)
     return value;
 }
 
-// `text` is behind the '['; the scanner has seen that only numbers, commas and blanks follow.
-struct csg_value csg_scan_numbers(struct csg_parser *p, const char *text, const char *end)
+// `*at` is at a '[', and the scanner has seen that only numbers, commas and blanks follow up to the
+// ']', behind which *at is put.
+struct csg_value csg_scan_vector(struct csg_parser *p, const char **at)
 {
     struct csg_value value = {.kind = CSG_NUMBERS};
+    const char *text = *at + 1;
     double *copy = NULL;
 
-    while (text < end) {
+    while (*text != ']') {
         bool negative = *text == '-';
+        double number;
         if (*text == '\n') {
             p->line++;
             p->line_start = text + 1;
         }
-        if (*text <= ',' && *text != '-' && *text != '+') { // blanks and commas
+        if (is_blank(*text) || *text == ',') {
             text++;
             continue;
         }
-        if (*text == ']')
-            break;
         text += *text == '-' || *text == '+';
-        double number;
         if (*text == 'i' || *text == 'n') {
             number = *text == 'i' ? (double)INFINITY : (double)NAN;
             text += 3;
@@ -120,7 +120,22 @@ struct csg_value csg_scan_numbers(struct csg_parser *p, const char *text, const 
         memcpy(copy, p->numbers, value.count * sizeof *copy);
     }
     value.numbers = copy;
+    *at = text + 1;
     return value;
+}
+
+// A vector of such vectors, from its '[' to past its ']'.
+struct csg_value csg_scan_matrix(struct csg_parser *p, const char *text, const char *end)
+{
+    uint32_t count = 0;
+
+    for (const char *row = text + 1; (row = memchr(row, '[', (size_t)(end - row))); count++) {
+        csg_count_lines(p, text, row);
+        csg_push_value(p, csg_scan_vector(p, &row));
+        text = row;
+    }
+    csg_count_lines(p, text, end);
+    return csg_vector(p, count);
 }
 
 static const char *skip_blanks(const char *s)
@@ -199,7 +214,7 @@ static char *put_utf8(char *out, uint32_t c)
         return out;
     }
     int more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
-    *out++ = (char)((0xF00u >> more) | c >> 6 * more);
+    *out++ = (char)(0xFFu << (7 - more) | c >> 6 * more);
     while (more--)
         *out++ = (char)(0x80u | ((c >> 6 * more) & 0x3F));
     return out;
@@ -257,11 +272,11 @@ const char *csg_scan_string(struct csg_parser *p, const char *quote, struct csg_
     if (after_equals(p, quote) && (!*close || !any_follows(close + 1)))
         raw = raw_end(p, text);
     bool lines = memchr(text, '\n', (size_t)(close - text)) != NULL;
-    if (!raw && (!*close || (lines && after_equals(p, quote) && !any_follows(close + 1)))) {
-        csg_error(p, quote, "this string is never closed: '\"' is missing");
-        close = text + strcspn(text, "\n");
+    if (!raw && (!*close || (lines && !any_follows(close + 1)))) {
+        p->unclosed_end = text + strcspn(text, "\n");
         *value = (struct csg_value){.kind = CSG_STRING, .string = ""};
-        return close;
+        csg_error(p, quote, "this string is never closed: '\"' is missing");
+        return p->unclosed_end;
     }
     const char *end = raw ? raw : close;
     char *copy = arena_alloc(&p->tree.arena, (size_t)(end - text) + 1), *last;
