@@ -13,6 +13,8 @@
 #include <string.h>
 
 enum { ROWS = 16 };           // given to a worker at a time
+enum { LAYERS = 1024 };       // of transparent surfaces that a ray shows at most
+#define ROUNDING 1e-6         // of depths, which are floats, relative to the distance of the scene
 #define FAINTEST (1.0f / 512) // what shows through less than this is not seen in 8 bits
 
 // One body being drawn, as the workers see it.
@@ -107,19 +109,12 @@ static void shade_rows(void *context, uint32_t item, uint32_t worker)
     }
 }
 
-// Colours collected along a ray from the front; `through` is the share that what follows still has.
-struct blend {
-    float r, g, b, through;
+// Colours met along a ray, from the front.
+struct layers {
+    struct rgba colours[LAYERS];
+    uint32_t count;
+    float through; // share that what follows still has
 };
-
-static void blend_add(struct blend *sum, struct rgba c)
-{
-    float share = sum->through * (float)c.a / 255;
-    sum->r += share * (float)c.r;
-    sum->g += share * (float)c.g;
-    sum->b += share * (float)c.b;
-    sum->through = c.a == 255 ? 0 : sum->through - share;
-}
 
 // Which parts of the body have shown their nearest surface on this ray. Past the capacity a part
 // may show again: with that many layers in front it is all but invisible.
@@ -141,7 +136,7 @@ static bool part_is_new(struct parts_seen *seen, uint32_t part)
 struct ray_state {
     const struct drawing *drawing;
     struct shade_cache *cache;
-    struct blend sum;
+    struct layers layers;
     struct parts_seen seen;
     float limit;      // surfaces behind it are hidden
     bool shown;       // something was
@@ -162,14 +157,17 @@ static bool meet_surface(struct ray_state *r, float depth, uint32_t leaf, uint32
     if (!r->shown)
         r->near = (struct span){.enter = depth, .enter_leaf = leaf, .enter_face = face};
     r->shown = true;
-    blend_add(&r->sum, shade_cached(r->cache, d->shader, d->body, &d->light, leaf, face));
-    return r->sum.through > FAINTEST;
+    struct layers *l = &r->layers;
+    l->colours[l->count++] = shade_cached(r->cache, d->shader, d->body, &d->light, leaf, face);
+    l->through *= 1 - (float)m->alpha / 255;
+    return l->through > FAINTEST && l->count < LAYERS;
 }
 
-static uint8_t over(float front, float through, uint8_t behind)
+// As a frame buffer of 8 bits mixes: both shares are rounded.
+static uint8_t over(uint8_t front, uint8_t alpha, uint8_t behind)
 {
-    float v = front + through * (float)behind + 0.5f;
-    return v < 255 ? (uint8_t)v : 255;
+    uint32_t v = (front * alpha + 127u) / 255 + (behind * (255u - alpha) + 127u) / 255;
+    return (uint8_t)(v < 255 ? v : 255);
 }
 
 static void finish_ray(const struct ray_state *r, size_t pixel)
@@ -178,9 +176,12 @@ static void finish_ray(const struct ray_state *r, size_t pixel)
     if (!r->shown)
         return;
     uint8_t *rgb = p->rgb + 3 * pixel;
-    rgb[0] = over(r->sum.r, r->sum.through, rgb[0]);
-    rgb[1] = over(r->sum.g, r->sum.through, rgb[1]);
-    rgb[2] = over(r->sum.b, r->sum.through, rgb[2]);
+    for (uint32_t i = r->layers.count; i-- > 0;) {
+        struct rgba c = r->layers.colours[i];
+        rgb[0] = over(c.r, c.a, rgb[0]);
+        rgb[1] = over(c.g, c.a, rgb[1]);
+        rgb[2] = over(c.b, c.a, rgb[2]);
+    }
     p->depth[pixel] = r->near.enter;
     if (r->drawing->record) {
         p->surface.depth[pixel] = r->near.enter;
@@ -195,14 +196,15 @@ static void blend_block(void *context, uint32_t worker, const struct span_block 
     const struct drawing *d = context;
     struct shade_cache cache;
     shade_cache_clear(&cache);
+    struct ray_state r = {.drawing = d, .cache = &cache};
     uint32_t i = 0;
     for (int y = block->y0; y < block->y1; y++) {
         for (int x = block->x0; x < block->x1; x++, i++) {
             size_t pixel = (size_t)y * (size_t)d->picture->width + (size_t)x;
-            struct ray_state r = {.drawing = d,
-                                  .cache = &cache,
-                                  .sum.through = 1,
-                                  .limit = d->picture->depth[pixel] + d->tolerance};
+            r.limit = d->picture->depth[pixel] + d->tolerance;
+            r.layers.count = r.seen.count = 0;
+            r.layers.through = 1;
+            r.shown = false;
             bool more = true;
             for (uint32_t k = block->first[i]; more && k < block->first[i + 1]; k++) {
                 const struct span *s = &block->spans[k];
@@ -245,7 +247,8 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
                             .light = light_of(rays),
                             .surface = main ? &p->surface : &p->scratch,
                             .record = main,
-                            .tolerance = (float)settings->epsilon};
+                            .tolerance =
+                                (float)fmax(settings->epsilon, ROUNDING * fabs(rays->reference))};
         struct render_stats one = {0};
         if (d.shading->opaque) {
             cpu_first_surface(device, body, rays, settings, d.surface, &one);

@@ -144,7 +144,7 @@ static void lone_background_shows_both_sides(void **state)
     (void)state;
     scripts[1] = (struct script){{solid_span(3, 5, 2)}, 1};
     // 181 twice over (255, 255, 229), each time with 128/255
-    expect(2, "Cornfield", 199, 199, 193, 3);
+    expect(2, "Cornfield", 200, 200, 193, 3);
 }
 
 static void cut_background_shows_its_nearest_surface(void **state)
@@ -159,7 +159,7 @@ static void highlight_on_the_model_mixes(void **state)
     (void)state;
     scripts[0] = (struct script){{solid_span(3, 5, 2)}, 1};
     scripts[2] = (struct script){{solid_span(3.0005f, 5, 2)}, 1};
-    expect(3, "Cornfield", 253, 148, 63, 3.0005f);
+    expect(3, "Cornfield", 253, 149, 63, 3.0005f);
 }
 
 static void hidden_bodies_stay_hidden(void **state)
