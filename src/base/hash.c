@@ -13,6 +13,7 @@ uint64_t hash_bytes(uint64_t seed, const void *data, size_t size)
         h = hash_mix(h ^ word) + 0x9e3779b97f4a7c15u;
     }
     uint64_t rest = 0;
-    memcpy(&rest, p, size);
+    if (size)
+        memcpy(&rest, p, size);
     return hash_mix(h ^ rest);
 }

@@ -136,36 +136,53 @@ static bool is_flat(const struct polygon_cutter *c, struct vec3 unit_normal)
     return high - low <= 1e-5 * largest;
 }
 
-static double angle_cosine(struct vec3 at, struct vec3 a, struct vec3 b)
+// Does the quad look convex along the normal?
+static bool is_convex_quad(const struct polygon_cutter *c, struct vec3 normal)
 {
-    return vec3_dot(vec3_normalized(vec3_sub(a, at)), vec3_normalized(vec3_sub(b, at)));
-}
-
-// A four-sided polygon that looks convex along the normal is cut along its Delaunay diagonal, which
-// decides the shape when it is bent. False: it is not convex.
-static bool cut_quad(struct polygon_cutter *c, struct vec3 normal)
-{
-    struct vec3 p[4];
-    for (uint32_t i = 0; i < 4; i++)
-        p[i] = corner(c, i);
     for (uint32_t i = 0; i < 4; i++) {
-        struct vec3 in = vec3_sub(p[i], p[(i + 3) % 4]), out = vec3_sub(p[(i + 1) % 4], p[i]);
-        if (!(vec3_dot(normal, vec3_cross(in, out)) > 0))
+        struct vec3 p = corner(c, i), in = vec3_sub(p, corner(c, (i + 3) % 4));
+        if (!(vec3_dot(normal, vec3_cross(in, vec3_sub(corner(c, (i + 1) % 4), p))) > 0))
             return false;
     }
-    // The angles opposite of diagonal 0-2 exceed 180 degrees: 1-3 is the better one.
-    bool other = acos(fmax(-1, fmin(1, angle_cosine(p[1], p[0], p[2])))) +
-                     acos(fmax(-1, fmin(1, angle_cosine(p[3], p[2], p[0])))) >
-                 M_PI + 1e-9;
-    uint32_t first = other ? 1 : 0;
-    array_reserve(&c->triangles, &c->triangle_room, 2);
-    for (uint32_t t = 0; t < 2; t++) {
-        c->triangles[t][0] = c->corners[first];
-        c->triangles[t][1] = c->corners[first + 1 + t];
-        c->triangles[t][2] = c->corners[(first + 2 + t) % 4];
-    }
-    c->triangle_count = 2;
     return true;
+}
+
+// The angle of a quad at one corner, in the plane of two axes.
+static double angle_at(const struct polygon_cutter *c, uint32_t at, struct vec3 axes)
+{
+    struct vec3 p = corner(c, at), a = vec3_sub(corner(c, (at + 1) % 4), p);
+    struct vec3 b = vec3_sub(corner(c, (at + 3) % 4), p);
+    a = (struct vec3){a.x * axes.x, a.y * axes.y, a.z * axes.z};
+    b = (struct vec3){b.x * axes.x, b.y * axes.y, b.z * axes.z};
+    double cosine = vec3_dot(vec3_normalized(a), vec3_normalized(b));
+    return acos(fmax(-1, fmin(1, cosine)));
+}
+
+// The diagonal of a bent quad decides its shape. OpenSCAD's tessellator takes the one that GLU
+// gives, unless the other one is the Delaunay diagonal by more than 0.01 radians, as seen along the
+// main axis of the normal.
+static void choose_diagonal(struct polygon_cutter *c, struct vec3 normal)
+{
+    double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
+    struct vec3 axes = {1, 1, 1};
+    if (x >= y && x >= z)
+        axes.x = 0;
+    else if (y >= z)
+        axes.y = 0;
+    else
+        axes.z = 0;
+    uint32_t apart = 0; // a corner that the diagonal does not touch
+    for (uint32_t i = 0; i < 4; i++) {
+        const uint32_t *t = c->triangles[0];
+        if (t[0] != c->corners[i] && t[1] != c->corners[i] && t[2] != c->corners[i])
+            apart = i;
+    }
+    if (angle_at(c, apart, axes) + angle_at(c, (apart + 2) % 4, axes) > M_PI + 0.01)
+        for (uint32_t k = 0; k < 2; k++) {
+            c->triangles[k][0] = c->corners[apart];
+            c->triangles[k][1] = c->corners[(apart + 1 + k) % 4];
+            c->triangles[k][2] = c->corners[(apart + 2 + k) % 4];
+        }
 }
 
 static void cut_fan(struct polygon_cutter *c)
@@ -208,16 +225,19 @@ bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_
         return false;
 
     struct vec3 normal = vec3_normalized(fitted_normal(c));
-    bool area = vec3_dot(normal, normal) > 0.5; // false also for NaN
     // Polygons without area are kept as they are: they close the seams between their neighbours.
-    if (c->corner_count == 3 || !area)
+    bool area = vec3_dot(normal, normal) > 0.5; // false also for NaN
+    bool flat = !area || is_flat(c, normal);
+    bool quad = area && c->corner_count == 4 && is_convex_quad(c, normal);
+    if (c->corner_count == 3 || !area || (quad && flat))
         cut_fan(c);
-    else if (c->corner_count > 4 || !cut_quad(c, normal))
+    else
         cut_any(c, normal);
     if (c->failed || !c->triangle_count)
         return false;
+    if (quad && !flat && c->triangle_count == 2)
+        choose_diagonal(c, normal);
 
-    bool flat = !area || is_flat(c, normal);
     uint32_t face = 0;
     for (uint32_t t = 0; t < c->triangle_count; t++) {
         if (t == 0 || !flat)

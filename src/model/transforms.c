@@ -50,11 +50,12 @@ void transform_mirror(struct builder *b, const struct args *args, struct affine 
         warn_argument(b, args, "a vector of 2 or 3 numbers");
         return;
     }
-    struct vec3 n = vec3_normalized((struct vec3){v[0], v[1], v[2]});
-    double u[3] = {n.x, n.y, n.z};
+    double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    if (!(square > 0))
+        return;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            out->m[i][j] -= 2 * u[i] * u[j];
+            out->m[i][j] -= 2 * v[i] * v[j] / square; // exact for diagonals
 }
 
 static struct affine rotation_about(struct vec3 axis, double degrees)

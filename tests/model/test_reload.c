@@ -1,0 +1,170 @@
+// test_reload.c - solids from model to model, deep and wide trees, filter and options.
+#include "unit.h"
+
+#include <stdio.h>
+
+static struct model build(const char *text, struct solid_store *store)
+{
+    struct messages messages = {0};
+    struct model m;
+    model_of_text(&m, "test.csg", text, store, &messages);
+    assert_int_equal(messages.count, 0);
+    messages_free(&messages);
+    return m;
+}
+
+static const char ball[] = "sphere($fn = 12, r = 2);";
+static const char balls[] = "sphere($fn = 12, r = 3); sphere($fn = 12, r = 4); cube(1);";
+static const char mesh[] = "polyhedron([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], "
+                           "[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);";
+
+static void equal_shapes_are_one_solid(void **state)
+{
+    (void)state;
+    struct solid_store *store = solid_store_new();
+    struct model m = build(balls, store);
+    const struct leaf *leaves = m.bodies[0].leaves;
+    assert_int_equal(m.bodies[0].leaf_count, 3);
+    assert_ptr_equal(leaves[0].solid, leaves[1].solid);
+    assert_int_equal(m.stats.solids, 2);
+    model_free(&m);
+    model_free(&m);
+    solid_store_delete(store);
+}
+
+static void solids_survive_a_reload(void **state)
+{
+    (void)state;
+    struct solid_store *store = solid_store_new();
+    struct model first = build(ball, store);
+    struct model second = build(balls, store); // before the old one goes
+    const struct solid *sphere = first.bodies[0].leaves[0].solid;
+    assert_ptr_equal(second.bodies[0].leaves[0].solid, sphere);
+    model_free(&first);
+    model_free(&second);
+    struct model third = build(ball, store); // after the old one went
+    assert_ptr_equal(third.bodies[0].leaves[0].solid, sphere);
+    assert_int_equal(third.stats.solids, 1);
+    struct model fourth = build(mesh, store), fifth = build(mesh, store);
+    assert_ptr_equal(fourth.bodies[0].leaves[0].solid, fifth.bodies[0].leaves[0].solid);
+    solid_store_delete(store); // the models keep it
+    model_free(&third);
+    model_free(&fifth);
+    model_free(&fourth);
+}
+
+static void filter_follows_the_extent(void **state)
+{
+    (void)state;
+    struct solid_store *store = solid_store_new();
+    struct model m = build("cube([10, 20, 30]);", store);
+    assert_true(model_epsilon(&m, -1) == 1e-3);
+    assert_true(model_epsilon(&m, 0) == 0);
+    assert_true(model_epsilon(&m, 0.5) == 0.5);
+    model_free(&m);
+    m = build("cube([10, 2000, 30]);", store);
+    assert_true(fabs(model_epsilon(&m, -1) - 4e-3) < 1e-15);
+    model_free(&m);
+    m = build("", store);
+    assert_true(model_epsilon(&m, -1) == 1e-3);
+    assert_int_equal(m.body_count, 1);
+    assert_true(box_is_empty(m.bounds));
+    model_free(&m);
+    solid_store_delete(store);
+}
+
+static void options_leave_the_bounds_alone(void **state)
+{
+    (void)state;
+    char text[] = "difference() { cube(2); cube([1, 1, 9]); translate([9, 0, 0]) cube(1); }\0";
+    struct messages messages = {0};
+    struct csg_tree tree;
+    assert_true(csg_parse(&tree, "x.csg", text, sizeof text - 2, &messages));
+    struct model_options all = MODEL_DEFAULTS, none = {.epsilon = -1};
+    struct solid_store *store = solid_store_new();
+    struct model with, without;
+    model_build(&with, &tree, store, &all, &messages);
+    model_build(&without, &tree, store, &none, &messages);
+    csg_free(&tree); // the models need it no longer
+    assert_true(with.bounds.max.x == 2 && without.bounds.max.x == 2 && with.bounds.max.z == 2);
+    assert_int_equal(with.bodies[0].expr.leaf_node[2], EXPR_NONE);
+    assert_int_not_equal(without.bodies[0].expr.leaf_node[2], EXPR_NONE);
+    assert_true(with.bodies[0].roi[1].max.z == 2 && without.bodies[0].roi[1].max.z == 9);
+    assert_string_equal(with.bodies[0].leaves[0].place.file, "x.csg");
+    model_free(&with);
+    model_free(&without);
+    solid_store_delete(store);
+    messages_free(&messages);
+}
+
+// `open` and `close` around `count` levels of nesting.
+static char *nested(const char *open, const char *middle, const char *close, size_t count)
+{
+    size_t size = (strlen(open) + strlen(close)) * count + strlen(middle) + 1;
+    char *text = mem_alloc(size), *at = text;
+    for (size_t i = 0; i < count; i++)
+        at = stpcpy(at, open);
+    at = stpcpy(at, middle);
+    for (size_t i = 0; i < count; i++)
+        at = stpcpy(at, close);
+    return text;
+}
+
+static void deep_trees_need_no_stack(void **state)
+{
+    (void)state;
+    struct solid_store *store = solid_store_new();
+    char *text = nested("translate([1, 0, 0]) {", "cube(1);", "}", 200000);
+    struct model m = build(text, store);
+    assert_true(m.bodies[0].leaves[0].box.min.x == 200000);
+    model_free(&m);
+    free(text);
+    text = nested("difference() { cube(1); ", "cube(1);", "}", 200000);
+    m = build(text, store);
+    assert_int_equal(m.stats.leaves, 200001);
+    model_free(&m);
+    free(text);
+    solid_store_delete(store);
+}
+
+static void many_marked_objects_share_bodies(void **state)
+{
+    (void)state;
+    struct solid_store *store = solid_store_new();
+    char *text = nested("%cube(1); group() {", "cube(2);", "}", 1000);
+    struct model m = build(text, store);
+    assert_in_range(m.body_count, 2, 100);
+    assert_int_equal(m.stats.leaves, 1001);
+    assert_int_equal(m.bodies[m.body_count - 1].kind, BODY_BACKGROUND);
+    model_free(&m);
+    free(text);
+    solid_store_delete(store);
+}
+
+static void too_many_corners_are_reduced(void **state)
+{
+    (void)state;
+    struct solid_store *store = solid_store_new();
+    struct messages messages = {0};
+    struct model m;
+    model_of_text(&m, "x.csg", "sphere($fn = 1e9); cylinder($fn = 1e9);", store, &messages);
+    assert_int_equal(messages.warnings, 2);
+    assert_int_equal(m.stats.leaves, 2);
+    model_free(&m);
+    messages_free(&messages);
+    solid_store_delete(store);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equal_shapes_are_one_solid),
+        cmocka_unit_test(solids_survive_a_reload),
+        cmocka_unit_test(filter_follows_the_extent),
+        cmocka_unit_test(options_leave_the_bounds_alone),
+        cmocka_unit_test(deep_trees_need_no_stack),
+        cmocka_unit_test(many_marked_objects_share_bodies),
+        cmocka_unit_test(too_many_corners_are_reduced),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
