@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { QUERY_DEPTH = 6, QUERY_NODES = 4096, FIELDS = 4, CHUNK = 256 };
+enum { QUERY_DEPTH = 12, QUERY_NODES = 4096, FIELDS = 8, CHUNK = 256 };
 
 double frame_key(const struct frame *f, double depth)
 {

@@ -7,6 +7,7 @@
 
 #include <float.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void *worker_new(const struct kernel_job *job, uint32_t worker)
 {
@@ -51,66 +52,92 @@ static uint32_t leaf_around_start(struct tile *t, int ray)
     return found;
 }
 
-struct block_faces {
-    _Alignas(32) uint32_t face[BLOCK_PIXELS];
-};
-
-// Faces of all rays that show the crossing `owner`: the plane whose key is the ray's.
-static void find_faces(struct tile *t, const struct rays_at *s, int32_t owner, uint64_t rays,
-                       struct block_faces *out)
+// Faces of all rays that show the crossing `owner`.
+static void find_faces(struct tile *t, const struct rays_at *s, int32_t owner, v8i *face)
 {
     struct tile_leaf *l = &t->leaves[owner >> 1];
-    float steep;
-    for (; rays; rays &= rays - 1) {
-        int i = __builtin_ctzll(rays);
-        out->face[i] = tile_face(t, l, i, owner & 1, s->key[i / BLOCK][i % BLOCK], &steep);
+    const struct block_leaf *b = tile_crossings(t, l);
+    bool leaving = owner & 1;
+    v8i left = v8_seti(0), mine[BLOCK];
+    for (int y = 0; y < BLOCK; y++) {
+        mine[y] = s->owner[y] == v8_seti(owner);
+        left |= mine[y];
     }
+    if (b && !b->mesh) { // the plane whose key is the ray's
+        const struct plane_pool *pool = &t->planes;
+        uint32_t from = leaving ? b->front : 0, to = leaving ? b->front + b->back : b->front;
+        for (uint32_t k = from; k < to; k++) {
+            uint32_t p = t->index[b->planes + k];
+            v8f row = pool->a[p] + pool->b[p] * t->px;
+            v8i number = v8_seti((int32_t)pool->face[p]);
+            for (int y = 0; y < BLOCK; y++) {
+                v8i same = mine[y] & (row + pool->c[p] * t->py[y] == s->key[y]);
+                face[y] = v8_selecti(same, number, face[y]);
+                mine[y] &= ~same;
+            }
+        }
+        left = v8_seti(0);
+        for (int y = 0; y < BLOCK; y++)
+            left |= mine[y];
+    }
+    if (!v8_bits(left))
+        return;
+    for (int i = 0; i < BLOCK_PIXELS; i++) { // meshes, and keys taken over from a neighbour
+        float steep;
+        if (mine[i / BLOCK][i % BLOCK])
+            face[i / BLOCK][i % BLOCK] =
+                (int32_t)tile_face(t, l, i, leaving, s->key[i / BLOCK][i % BLOCK], &steep);
+    }
+}
+
+// depth - reference of a row of keys.
+static v8f row_depth(const struct frame *f, v8f key)
+{
+    v8f shift = v8_set((float)(f->t0 - f->rays->reference));
+    if (f->rays->orthographic)
+        return key + shift;
+    return key / (v8_set(1) - key * (float)(1 / f->t0)) + shift;
 }
 
 static void write_block(struct tile *t, const struct rays_at *s, struct surface_image *image)
 {
     const struct frame *f = t->frame;
-    struct block_faces faces;
+    v8i face[BLOCK], leaf[BLOCK];
     uint64_t done = 0;
 
-    for (int i = 0; i < BLOCK_PIXELS; i++)
-        if (!(s->key[i / BLOCK][i % BLOCK] < FLT_MAX))
-            done |= (uint64_t)1 << i;
-    for (int i = 0; i < BLOCK_PIXELS; i++) {
-        int32_t owner = s->owner[i / BLOCK][i % BLOCK];
+    for (int y = 0; y < BLOCK; y++) {
+        v8i nothing = ~(s->key[y] < v8_set(FLT_MAX));
+        face[y] = v8_seti((int32_t)SURFACE_CAP);
+        leaf[y] = v8_seti((int32_t)SURFACE_NONE);
+        done |= (uint64_t)(unsigned)v8_bits(nothing) << (y * BLOCK);
+    }
+    for (int i = 0; ~done && i < BLOCK_PIXELS; i++) {
         if (done >> i & 1)
             continue;
+        int32_t owner = s->owner[i / BLOCK][i % BLOCK];
         if (owner < 0) {
-            faces.face[i] = SURFACE_CAP;
+            leaf[i / BLOCK][i % BLOCK] = (int32_t)leaf_around_start(t, i);
             done |= (uint64_t)1 << i;
             continue;
         }
-        uint64_t same = 0;
-        for (int y = 0; y < BLOCK; y++)
-            same |= (uint64_t)(unsigned)v8_bits(s->owner[y] == v8_seti(owner)) << (y * BLOCK);
-        same &= ~done;
-        find_faces(t, s, owner, same, &faces);
-        done |= same;
+        v8i number = v8_seti((int32_t)t->leaves[owner >> 1].leaf);
+        for (int y = 0; y < BLOCK; y++) {
+            v8i same = s->owner[y] == v8_seti(owner);
+            leaf[y] = v8_selecti(same, number, leaf[y]);
+            done |= (uint64_t)(unsigned)v8_bits(same) << (y * BLOCK);
+        }
+        find_faces(t, s, owner, face);
     }
-    int width = t->x1 - t->bx < BLOCK ? t->x1 - t->bx : BLOCK;
+    size_t width = (size_t)(t->x1 - t->bx < BLOCK ? t->x1 - t->bx : BLOCK);
     int height = t->y1 - t->by < BLOCK ? t->y1 - t->by : BLOCK;
     for (int y = 0; y < height; y++) {
         size_t at = (size_t)(t->by + y) * (size_t)image->width + (size_t)t->bx;
-        for (int x = 0; x < width; x++) {
-            float key = s->key[y][x];
-            int32_t owner = s->owner[y][x];
-            uint32_t leaf = SURFACE_NONE;
-            float depth = INFINITY;
-            if (key < FLT_MAX) {
-                leaf =
-                    owner >= 0 ? t->leaves[owner >> 1].leaf : leaf_around_start(t, y * BLOCK + x);
-                depth = (float)(frame_depth(f, key) - f->rays->reference);
-            }
-            image->depth[at + (size_t)x] = depth;
-            image->leaf[at + (size_t)x] = leaf;
-            image->face[at + (size_t)x] =
-                leaf == SURFACE_NONE ? SURFACE_CAP : faces.face[y * BLOCK + x];
-        }
+        v8i nothing = leaf[y] == v8_seti((int32_t)SURFACE_NONE);
+        v8f depth = v8_select(nothing, v8_set(INFINITY), row_depth(f, s->key[y]));
+        face[y] = v8_selecti(nothing, v8_seti((int32_t)SURFACE_CAP), face[y]);
+        memcpy(image->depth + at, &depth, width * sizeof(float));
+        memcpy(image->leaf + at, &leaf[y], width * sizeof(uint32_t));
+        memcpy(image->face + at, &face[y], width * sizeof(uint32_t));
     }
 }
 

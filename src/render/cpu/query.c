@@ -134,8 +134,10 @@ static void bounds(const struct query *q, uint32_t ref, float *near, float *far)
 // Drops what cannot be solid here; returns what is left of the node. Depth is bounded by frame.c.
 static uint32_t prune(struct query *q, uint32_t ref)
 {
-    if (ref == NO_REF || ref & LEAF_BIT)
-        return ref;
+    if (ref == NO_REF)
+        return NO_REF;
+    if (ref & LEAF_BIT)
+        return q->t->leaves[ref & ~LEAF_BIT].state == LEAF_ABSENT ? NO_REF : ref;
     const struct expr_node *e = &q->t->frame->body->expr.nodes[q->nodes[ref].expr];
     bool any = q->nodes[ref].op == EXPR_UNION;
     uint32_t kept = 0, last = NO_REF;
@@ -172,9 +174,32 @@ static uint32_t prune(struct query *q, uint32_t ref)
     return ref;
 }
 
+static int by_near(const void *a, const void *b)
+{
+    const struct query_part *p = a, *q = b;
+    if (p->near != q->near)
+        return p->near < q->near ? -1 : 1;
+    return p->first < q->first ? -1 : p->first > q->first;
+}
+
+// Leaves of few planes are cheap to look at for the whole tile: it tells where they begin in it.
+static void prepare_small(struct tile *t)
+{
+    enum { SMALL = 16 };
+    if (!t->leaf_count || t->leaves[0].part == t->leaves[t->leaf_count - 1].part)
+        return; // one part: nothing to put in order
+    for (uint32_t i = 0; i < t->leaf_count; i++) {
+        const struct solid *s = t->frame->body->leaves[t->leaves[i].leaf].solid;
+        if (s->convex && s->planes.padded <= SMALL &&
+            t->planes.size - t->planes.used > t->planes.size / 2)
+            tile_prepare(t, &t->leaves[i]);
+    }
+}
+
 void query_enter(struct query *q)
 {
     struct tile *t = q->t;
+    prepare_small(t);
     q->node_count = q->link_count = q->kid_count = q->part_count = 0;
     for (uint32_t i = 0, end; i < t->leaf_count; i = end) {
         const struct frame_part *fp = &t->frame->parts[t->leaves[i].part];
@@ -199,6 +224,7 @@ void query_enter(struct query *q)
         array_reserve(&q->parts, &q->part_capacity, q->part_count + 1);
         q->parts[q->part_count++] = p;
     }
+    qsort(q->parts, q->part_count, sizeof *q->parts, by_near);
 }
 
 // ---------------------------------------------------------------- rays of a block
@@ -540,6 +566,53 @@ static bool move_out(struct query *q, uint32_t ref, struct rays_at *s)
     return n->op == EXPR_UNION ? union_out(q, n, s) : intersection_out(q, n, s);
 }
 
+static float latest(const struct rays_at *s)
+{
+    v8f m = v8_set(-NEVER);
+    for (int y = 0; y < BLOCK; y++)
+        m = v8_max(m, s->key[y]);
+    return v8_highest(m);
+}
+
+// A part that is one leaf: no moving about, its entry or nothing.
+static void leaf_alone(struct query *q, uint32_t index, struct rays_at *out)
+{
+    const struct block_leaf *b = tile_crossings(q->t, &q->t->leaves[index]);
+    int32_t id = (int32_t)(index << 1);
+    if (!b)
+        return;
+    v8i close = v8_seti(b->mesh ? -1 : 0), nearer_some = v8_seti(0);
+    if (!b->mesh) {
+        const v8f *enter = (const v8f *)b->enter, *leave = (const v8f *)b->leave;
+        v8f band = v8_set(b->band), near = v8_set(q->t->frame->epsilon);
+        v8f start = v8_set(q->t->frame->start);
+        for (int y = 0; y < BLOCK; y++) {
+            v8f z = out->key[y];
+            close |= ((leave[y] - enter[y] <= band) & (leave[y] > enter[y])) |
+                     (v8_abs(enter[y] - z) <= near & (z < v8_set(NEVER))) | (enter[y] <= start);
+            nearer_some |= enter[y] < z;
+        }
+    }
+    if (v8_bits(close)) {
+        struct rays_at s;
+        for (int y = 0; y < BLOCK; y++) {
+            s.key[y] = v8_set(q->t->frame->start);
+            s.owner[y] = v8_seti(-1);
+        }
+        leaf_in(q, index, &s);
+        nearer(q, out, &s);
+        return;
+    }
+    if (!v8_bits(nearer_some))
+        return;
+    const v8f *enter = (const v8f *)b->enter;
+    for (int y = 0; y < BLOCK; y++) {
+        v8i ahead = enter[y] < out->key[y];
+        out->key[y] = v8_min(enter[y], out->key[y]);
+        out->owner[y] = v8_selecti(ahead, v8_seti(id), out->owner[y]);
+    }
+}
+
 void query_block(struct query *q, struct rays_at *out)
 {
     struct tile *t = q->t;
@@ -552,7 +625,13 @@ void query_block(struct query *q, struct rays_at *out)
     for (uint32_t i = 0; i < q->part_count; i++) {
         const struct query_part *p = &q->parts[i];
         if (p->near > high)
+            break;
+        t->limit = high + t->frame->epsilon;
+        if (p->root != NO_REF && p->root & LEAF_BIT) {
+            leaf_alone(q, p->root & ~LEAF_BIT, out);
+            high = latest(out);
             continue;
+        }
         struct rays_at s;
         for (int y = 0; y < BLOCK; y++) {
             s.key[y] = start;
@@ -564,9 +643,6 @@ void query_block(struct query *q, struct rays_at *out)
         else
             walk_first(t, p->first, p->count, &s);
         nearer(q, out, &s);
-        v8f m = v8_set(-NEVER);
-        for (int y = 0; y < BLOCK; y++)
-            m = v8_max(m, out->key[y]);
-        high = v8_highest(m);
+        high = latest(out);
     }
 }

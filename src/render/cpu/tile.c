@@ -23,7 +23,7 @@ void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t me
     t->planes.a = mem_zalloc((planes + 8) * 4); // vectors may read past the last one
     t->planes.b = mem_zalloc((planes + 8) * 4);
     t->planes.c = mem_zalloc((planes + 8) * 4);
-    t->planes.steep = mem_aligned(32, planes * 4);
+    t->planes.steep = mem_zalloc((planes + 8) * 4);
     t->planes.face = mem_aligned(32, planes * 4);
     t->slot_size = (uint32_t)slots;
     t->slots = mem_aligned(64, slots * sizeof *t->slots);
@@ -76,6 +76,15 @@ void tile_enter(struct tile *t, uint32_t tile_number)
     t->slot_count = 0;
     t->index_used = 0;
 
+    struct vec3 d = rays_direction(f->rays, t->cx, t->cy);
+    t->origin = rays_origin(f->rays, t->cx, t->cy);
+    t->direction = d;
+    t->middle = vec3_add(t->origin, vec3_scale(d, f->t0));
+    double pixel_x = vec3_length(f->rays->step_x), pixel_y = vec3_length(f->rays->step_y);
+    t->slope = (float)(1 / pixel_x); // pixels are square: see rays.h
+    t->lean_x = (float)(vec3_dot(d, f->rays->step_x) / pixel_x);
+    t->lean_y = (float)(vec3_dot(d, f->rays->step_y) / pixel_y);
+
     int field = t->y0 / f->field * f->fields_x + t->x0 / f->field;
     float x0 = (float)t->x0, y0 = (float)t->y0, x1 = (float)(t->x1 - 1), y1 = (float)(t->y1 - 1);
     for (uint32_t i = f->field_first[field]; i < f->field_first[field + 1]; i++) {
@@ -87,7 +96,11 @@ void tile_enter(struct tile *t, uint32_t tile_number)
                                                         .leaf = l->leaf,
                                                         .part = l->part,
                                                         .near = l->near,
-                                                        .far = l->far};
+                                                        .far = l->far,
+                                                        .x0 = l->x0,
+                                                        .y0 = l->y0,
+                                                        .x1 = l->x1,
+                                                        .y1 = l->y1};
     }
 }
 
@@ -99,6 +112,7 @@ void tile_block(struct tile *t, int x, int y)
     t->slot_count = 0;
     t->index_used = 0;
     t->mesh.interval_count = 0;
+    t->limit = FLT_MAX;
     for (int i = 0; i < BLOCK; i++) {
         t->px[i] = (float)(x + i - t->cx);
         t->py[i] = (float)(y + i - t->cy);
@@ -120,12 +134,11 @@ static struct local_rays local_rays(const struct tile *t, const struct leaf *lea
 {
     const struct frame *f = t->frame;
     const struct affine *m = &leaf->to_local;
-    struct vec3 o = rays_origin(f->rays, t->cx, t->cy), d = rays_direction(f->rays, t->cx, t->cy);
     struct local_rays r;
     double s = f->rays->orthographic ? 1 : f->t0;
-    r.eye = affine_point(m, o);
-    r.centre = affine_point(m, vec3_add(o, vec3_scale(d, f->t0)));
-    r.direction = affine_vector(m, d);
+    r.eye = affine_point(m, t->origin);
+    r.centre = affine_point(m, t->middle);
+    r.direction = affine_vector(m, t->direction);
     r.step_x = vec3_scale(affine_vector(m, f->rays->step_x), s);
     r.step_y = vec3_scale(affine_vector(m, f->rays->step_y), s);
     r.scale = f->rays->orthographic ? 1 : 1 / f->t0;
@@ -240,16 +253,30 @@ INLINE void list_take(struct plane_list *out, const struct plane_source *s, cons
     list_pad(out);
 }
 
+// All planes of one side of a source of at most eight.
+INLINE void list_split(struct plane_list *out, const struct plane_source *s)
+{
+    out->n = 0;
+    for (uint32_t i = 0; i < s->n; i++) {
+        if (!(s->side[i] * s->sign < 0))
+            continue;
+        out->a[out->n] = s->a[i] * s->sign;
+        out->b[out->n] = s->b[i] * s->sign;
+        out->c[out->n] = s->c[i] * s->sign;
+        out->id[out->n++] = i;
+    }
+    list_pad(out);
+}
+
 // The planes of the source that may have the largest key somewhere in the square.
 INLINE void cull_planes(struct plane_list *out, const struct plane_source *s, float x, float y,
                         float h)
 {
     const float cx[5] = {0, -1, 1, -1, 1}, cy[5] = {0, -1, -1, 1, 1};
     uint32_t q = largest_at(s, x, y);
-    if (q == UINT32_MAX) {
-        out->n = 0;
+    out->n = 0;
+    if (q == UINT32_MAX)
         return;
-    }
     list_take(out, s, NULL, q, x, y, h);
     struct plane_source rest = {.a = out->a, .b = out->b, .c = out->c, .sign = 1};
     for (int k = 1; k < 5 && out->n > 2; k++) {
@@ -259,34 +286,51 @@ INLINE void cull_planes(struct plane_list *out, const struct plane_source *s, fl
     }
 }
 
+// |n . direction| of planes at the centre of the tile, for unit normals: the slope of the key tells
+// how the plane leans against the ray.
+INLINE v8f steepness(const struct tile *t, v8f a, v8f b, v8f c)
+{
+    v8f one = v8_set(1), scale = v8_set(t->slope);
+    if (!t->frame->rays->orthographic)
+        scale = scale / (v8_set((float)t->frame->t0) - a);
+    v8f gx = b * scale, gy = c * scale;
+    v8f along = one + gx * t->lean_x + gy * t->lean_y;
+    v8f squared = gx * gx + gy * gy + along * along, root;
+    for (int i = 0; i < 8; i++)
+        root[i] = sqrtf(squared[i]);
+    return one / root;
+}
+
 // Culls the planes of one side over the tile and appends them to the pool. Returns the bound of the
 // key: the entry is nowhere below it (front), the exit nowhere above it (back).
-static float keep_side(struct tile *t, const struct leaf *leaf, const struct local_rays *r,
-                       float sign, uint32_t *count)
+static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t *count)
 {
     struct plane_pool *pool = &t->planes;
-    const struct planes *planes = &leaf->solid->planes;
     struct plane_source source = {t->scratch[0], t->scratch[1], t->scratch[2], t->scratch[3], 0,
-                                  planes->count, sign};
+                                  planes,        sign};
     struct plane_list list = t->list;
-    const float h = 0.5f * TILE;
-    float bound = -FLT_MAX;
+    v8f h = v8_set(0.5f * TILE), bound = v8_set(-FLT_MAX), flip = v8_set(sign);
 
-    cull_planes(&list, &source, 0, 0, h);
-    for (uint32_t i = 0; i < list.n; i++) {
-        uint32_t p = list.id[i], at = pool->used++;
-        struct vec3 normal = {planes->nx[p], planes->ny[p], planes->nz[p]};
-        double length = vec3_length(affine_normal(&leaf->to_local, normal));
-        pool->a[at] = sign * list.a[i];
-        pool->b[at] = sign * list.b[i];
-        pool->c[at] = sign * list.c[i];
-        pool->face[at] = p;
-        pool->steep[at] = (float)(fabs(vec3_dot(normal, r->direction)) / length);
-        float low = list.a[i] - (fabsf(list.b[i]) + fabsf(list.c[i])) * h;
-        bound = low > bound ? low : bound;
+    if (planes <= 8)
+        list_split(&list, &source);
+    else
+        cull_planes(&list, &source, 0, 0, 0.5f * TILE);
+    for (uint32_t i = 0; i < list.n; i += 8) {
+        v8f a = load(list.a + i), b = load(list.b + i), c = load(list.c + i);
+        bound = v8_max(bound, a - (v8_abs(b) + v8_abs(c)) * h);
+        a *= flip;
+        b *= flip;
+        c *= flip;
+        v8f steep = steepness(t, a, b, c);
+        memcpy(pool->a + pool->used + i, &a, sizeof a);
+        memcpy(pool->b + pool->used + i, &b, sizeof b);
+        memcpy(pool->c + pool->used + i, &c, sizeof c);
+        memcpy(pool->steep + pool->used + i, &steep, sizeof steep);
     }
+    memcpy(pool->face + pool->used, list.id, list.n * sizeof *pool->face);
+    pool->used += list.n;
     *count = list.n;
-    return list.n ? sign * bound : sign > 0 ? t->frame->start : t->frame->end;
+    return list.n ? sign * v8_highest(bound) : sign > 0 ? t->frame->start : t->frame->end;
 }
 
 static void forget_planes(struct tile *t)
@@ -297,7 +341,7 @@ static void forget_planes(struct tile *t)
     t->planes.used = 0;
 }
 
-static void prepare(struct tile *t, struct tile_leaf *l)
+void tile_prepare(struct tile *t, struct tile_leaf *l)
 {
     const struct frame *f = t->frame;
     const struct leaf *leaf = &f->body->leaves[l->leaf];
@@ -307,14 +351,14 @@ static void prepare(struct tile *t, struct tile_leaf *l)
         l->state = LEAF_READY;
         return;
     }
-    if (t->planes.size - t->planes.used < p->padded)
+    if (t->planes.size - t->planes.used < p->padded + 8)
         forget_planes(t);
     struct local_rays r = local_rays(t, leaf);
     make_planes(t, p, &r, f->rays->orthographic);
 
     l->plane = t->planes.used;
-    float near = keep_side(t, leaf, &r, 1, &l->front);
-    float far = keep_side(t, leaf, &r, -1, &l->back);
+    float near = keep_side(t, p->count, 1, &l->front);
+    float far = keep_side(t, p->count, -1, &l->back);
     l->near = near > l->near ? near : l->near;
     l->far = far < l->far ? far : l->far;
     l->state = l->near < l->far ? LEAF_READY : LEAF_ABSENT;
@@ -337,32 +381,59 @@ static float find_band(const struct tile *t, const struct block_leaf *out)
     return 1.01f * f->epsilon * growth / fmaxf(steep, STEEP_LEAST);
 }
 
+// Numbers of the planes of one side that may count in the current block, at `index`; returns how
+// many.
+static uint32_t block_side(struct tile *t, uint32_t first, uint32_t n, float sign, float mx,
+                           float my, uint32_t *index)
+{
+    enum { FEW = 4 }; // culling would cost more than it saves
+    if (n <= FEW) {
+        for (uint32_t i = 0; i < n; i++)
+            index[i] = first + i;
+        return n;
+    }
+    const struct plane_pool *pool = &t->planes;
+    struct plane_source source = {
+        pool->a + first, pool->b + first, pool->c + first, NULL, first, n, sign};
+    struct plane_list list = t->list;
+    cull_planes(&list, &source, mx, my, 0.5f * BLOCK);
+    memcpy(index, list.id, list.n * sizeof *index);
+    return list.n;
+}
+
+// Does every ray of the block miss? Yes when one front plane is beyond one back plane in all of it,
+// or beyond the limit.
+static bool block_misses(const struct tile *t, const uint32_t *front, uint32_t fronts,
+                         const uint32_t *back, uint32_t backs, float mx, float my)
+{
+    enum { PAIRS = 36 }; // beyond, looking costs more than the crossings
+    const struct plane_pool *pool = &t->planes;
+    const float h = 0.5f * BLOCK;
+    for (uint32_t i = 0; i < fronts; i++) {
+        float a = pool->a[front[i]], b = pool->b[front[i]], c = pool->c[front[i]];
+        float key = (a + b * mx) + c * my;
+        if (key - (fabsf(b) + fabsf(c)) * h > t->limit)
+            return true;
+        for (uint32_t k = 0; k < backs && fronts * backs <= PAIRS; k++) {
+            uint32_t q = back[k];
+            float other = (pool->a[q] + pool->b[q] * mx) + pool->c[q] * my;
+            if (key - other > (fabsf(b - pool->b[q]) + fabsf(c - pool->c[q])) * h)
+                return true;
+        }
+    }
+    return false;
+}
+
 static const struct block_leaf *convex_block(struct tile *t, struct tile_leaf *l,
                                              struct block_leaf *out)
 {
     const struct plane_pool *pool = &t->planes;
-    const float h = 0.5f * BLOCK;
     float mx = (t->px[3] + t->px[4]) * 0.5f, my = (t->py[3] + t->py[4]) * 0.5f;
     uint32_t *index = t->index + t->index_used;
-    struct plane_source source = {.a = pool->a + l->plane,
-                                  .b = pool->b + l->plane,
-                                  .c = pool->c + l->plane,
-                                  .id = l->plane,
-                                  .n = l->front,
-                                  .sign = 1};
-    struct plane_list list = t->list;
-    cull_planes(&list, &source, mx, my, h);
-    uint32_t front = list.n;
-    memcpy(index, list.id, front * sizeof *index);
-    source.a += l->front;
-    source.b += l->front;
-    source.c += l->front;
-    source.id += l->front;
-    source.n = l->back;
-    source.sign = -1;
-    cull_planes(&list, &source, mx, my, h);
-    uint32_t back = list.n;
-    memcpy(index + front, list.id, back * sizeof *index);
+    uint32_t front = block_side(t, l->plane, l->front, 1, mx, my, index);
+    uint32_t back = block_side(t, l->plane + l->front, l->back, -1, mx, my, index + front);
+    if (block_misses(t, index, front, index + front, back, mx, my))
+        return NULL;
 
     v8f enter[BLOCK], leave[BLOCK];
     for (int y = 0; y < BLOCK; y++) {
@@ -412,8 +483,11 @@ const struct block_leaf *tile_crossings(struct tile *t, struct tile_leaf *l)
         return NULL;
     if (l->serial == t->serial && l->state == LEAF_READY)
         return l->slot == SLOT_ABSENT ? NULL : &t->slots[l->slot];
+    if (l->x0 > (float)(t->bx + BLOCK - 1) || l->x1 < (float)t->bx ||
+        l->y0 > (float)(t->by + BLOCK - 1) || l->y1 < (float)t->by || l->near > t->limit)
+        return NULL;
     if (l->state == LEAF_NEW) {
-        prepare(t, l);
+        tile_prepare(t, l);
         if (l->state == LEAF_ABSENT)
             return NULL;
     }

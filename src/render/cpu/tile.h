@@ -17,6 +17,7 @@
 #define tile_init        ISA_PASTE(tile_init, ISA)
 #define tile_free        ISA_PASTE(tile_free, ISA)
 #define tile_enter       ISA_PASTE(tile_enter, ISA)
+#define tile_prepare     ISA_PASTE(tile_prepare, ISA)
 #define tile_block       ISA_PASTE(tile_block, ISA)
 #define tile_crossings   ISA_PASTE(tile_crossings, ISA)
 #define tile_face        ISA_PASTE(tile_face, ISA)
@@ -43,6 +44,7 @@ struct tile_leaf {
     uint32_t slot;               // in the block pool; SLOT_ABSENT: no ray of the block meets it
     float band;                  // of the newest block it was in, see block_leaf
     float near, far;             // keys that bound it
+    float x0, y0, x1, y1;        // see frame_leaf
 };
 #define SLOT_ABSENT UINT32_MAX
 
@@ -100,8 +102,10 @@ struct mesh_pool {
 struct tile {
     const struct frame *frame;
     uint32_t worker;
-    int x0, y0, x1, y1; // pixels [x0, x1) x [y0, y1)
-    double cx, cy;      // the centre, in pixel coordinates
+    int x0, y0, x1, y1;                    // pixels [x0, x1) x [y0, y1)
+    double cx, cy;                         // the centre, in pixel coordinates
+    struct vec3 origin, direction, middle; // the ray there; middle is at t0
+    float slope, lean_x, lean_y;           // of the ray there, see steepness in tile.c
 
     struct tile_leaf *leaves;
     uint32_t leaf_count, leaf_capacity;
@@ -109,6 +113,7 @@ struct tile {
 
     // the current block
     uint32_t serial;
+    float limit;     // crossings of leaves that begin beyond this key are not asked for
     int bx, by;      // its first pixel
     v8f px;          // pixel x of the 8 columns from the centre of the tile
     float py[BLOCK]; // pixel y of the 8 rows
@@ -126,6 +131,9 @@ struct tile {
     uint64_t fragments, misses, open_rays;
     size_t bytes;
 };
+
+// Planes of the leaf over the whole tile, which tightens near and far; may find it absent.
+void tile_prepare(struct tile *t, struct tile_leaf *l);
 
 void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t memory);
 void tile_free(struct tile *t);
