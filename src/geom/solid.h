@@ -4,9 +4,9 @@
 
 #include <stdint.h>
 
-// Indexed triangles, counter-clockwise seen from outside; vertices equal in coordinates are one vertex.
-// Several triangles may form one flat face: face[i] numbers the face of triangle i from 0, so that
-// a face has one normal. {0} is a valid empty mesh.
+// Indexed triangles, counter-clockwise seen from outside; vertices equal in coordinates are one
+// vertex. Several triangles may form one flat face: face[i] numbers the face of triangle i from 0,
+// so that a face has one normal. {0} is a valid empty mesh.
 struct mesh {
     struct vec3 *vertices;
     uint32_t vertex_count;
@@ -17,8 +17,8 @@ struct mesh {
 };
 
 // A convex solid is also the intersection of the half-spaces nx x + ny y + nz z <= d of its faces
-// (unit outward normals, plane i is face i). The four arrays are one allocation, aligned to 64 bytes and
-// padded to a multiple of 8 planes with copies of plane 0.
+// (unit outward normals, plane i is face i). The four arrays are one allocation, aligned to 64
+// bytes and padded to a multiple of 8 planes with copies of plane 0.
 struct planes {
     double *nx, *ny, *nz, *d;
     uint32_t count, padded;

@@ -21,15 +21,15 @@ struct leaf {
 
 enum body_kind { BODY_MAIN, BODY_BACKGROUND, BODY_HIGHLIGHT };
 
-// Leaves and one expression over them, drawn on its own. Leaf numbers are those of the file's order: of two
-// surfaces at the same depth the higher number shows.
+// Leaves and one expression over them, drawn on its own. Leaf numbers are those of the file's
+// order: of two surfaces at the same depth the higher number shows.
 struct body {
     enum body_kind kind;
     struct leaf *leaves;
     uint32_t leaf_count;
-    struct expr expr;          // without the leaves that cannot matter
+    struct expr expr; // without the leaves that cannot matter
     struct sharing sharing;
-    struct box *roi;           // per leaf
+    struct box *roi; // per leaf
     struct discovery *table;
 };
 
@@ -47,16 +47,17 @@ struct model {
 };
 
 struct model_options {
-    double epsilon; // filter in mm across the faces; negative: max(1e-3, 2e-6 * extent of the model)
+    double
+        epsilon; // filter in mm across the faces; negative: max(1e-3, 2e-6 * extent of the model)
     bool share, roi; // value sharing and regions of interest; true unless the bench compares
 };
 #define MODEL_DEFAULTS ((struct model_options){.epsilon = -1, .share = true, .roi = true})
 
-// Never fails: what cannot be drawn is left out with a message. `store` keeps solids from reload to reload
-// (made with solid_store_new, shared by reference); the model holds a reference of its own.
+// Never fails: what cannot be drawn is left out with a message. `store` keeps solids from reload to
+// reload (made with solid_store_new, shared by reference); the model holds a reference of its own.
 void model_build(struct model *out, const struct csg_tree *tree, struct solid_store *store,
                  const struct model_options *options, struct messages *messages);
-void model_free(struct model *m); // leaves {0}
+void model_free(struct model *m);                          // leaves {0}
 double model_epsilon(const struct model *m, double asked); // the filter that holds, in mm
 
 struct solid_store *solid_store_new(void);
