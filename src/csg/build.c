@@ -56,17 +56,19 @@ void csg_push_argument(struct csg_parser *p, const char *name, struct csg_value 
 
 struct csg_value csg_vector(struct csg_parser *p, uint32_t count)
 {
-    const struct csg_value *items = p->values + (p->value_count - count);
     struct csg_value vector = {.kind = CSG_NUMBERS, .count = count};
 
+    if (!count)
+        return vector;
     p->value_count -= count;
+    const struct csg_value *items = p->values + p->value_count;
     for (uint32_t i = 0; i < count; i++)
         if (items[i].kind != CSG_NUMBER)
             vector.kind = CSG_VECTOR;
     if (vector.kind == CSG_VECTOR) {
         size_t size = count * sizeof *items;
         vector.items = memcpy(arena_alloc(&p->tree.arena, size), items, size);
-    } else if (count) {
+    } else {
         double *numbers = arena_alloc(&p->tree.arena, count * sizeof *numbers);
         for (uint32_t i = 0; i < count; i++)
             numbers[i] = items[i].number;
