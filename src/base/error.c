@@ -26,6 +26,9 @@ static void set(struct error *err, struct place place, const char *format, va_li
         return;
     size_t used = put_place(err->text, sizeof err->text, place);
     vsnprintf(err->text + used, sizeof err->text - used, format, args);
+    for (char *c = err->text; *c; c++) // names from files may hold anything, a message is one line
+        if ((unsigned char)*c < 32 || *c == 127)
+            *c = ' ';
 }
 
 void error_set(struct error *err, const char *format, ...)
