@@ -26,7 +26,7 @@ static const struct option options[] = {
     {"size", 0, OPTION_TEXT, "W,H", "of the window in pixels, 1024,768 if not given", &given.size,
      0, 0},
     {"threads", 0, OPTION_COUNT, "N", "for drawing, one per processor if not given", &given.threads,
-     1, 256},
+     0, 256},
     {"eps", 0, OPTION_NUMBER, "MM", "layers thinner than this do not show", &given.epsilon, 0, 1e9},
     {"openscad", 0, OPTION_TEXT, "PROGRAM",
      "exports .scad files; if not given $OPENSCAD,\nor openscad on the PATH", &given.openscad, 0,
