@@ -29,7 +29,7 @@ struct csg_parser {
     const char *token_end;    // past it
     const char *previous_end; // past the token before it
     const char *no_raw_end;   // no raw string ends before here (see csg_scan_string)
-    const char *unclosed_end;    // where the newest unclosed string was given up
+    const char *unclosed_end; // where the newest unclosed string was given up
     uint32_t errors;
     bool stop;                  // the scanner says end of file from now on
     locale_t c_locale;          // for the numbers that need strtod, made on demand
