@@ -96,18 +96,23 @@ static void push_frame(struct walk *w, struct frame f)
     w->frames[w->frame_count++] = f;
 }
 
-// Below render() the parts are one object: % is left out of it, # takes part, and both are shown
-// beside it, except those directly below render().
+// Below render() the parts are one object: objects marked % are left out of it, those marked # take
+// part, and both are shown beside it as elsewhere, except those directly below render().
 static void fold_rendered(struct walk *w, struct frame *f, uint32_t term)
 {
     struct scene *s = &w->b->scene;
     uint32_t marks = scene_marks(s, term);
-    if (f->render == RENDER_BELOW)
-        scene_show_apart(s, term);
-    else if (marks)
-        s->terms[term].marks = 0;
-    if (!(marks & CSG_BACKGROUND))
-        f->term = scene_fold(s, f->operation, f->term, term);
+    if (f->render == RENDER_NODE) {
+        if (marks)
+            s->terms[term].marks = 0;
+        if (marks & CSG_BACKGROUND)
+            return;
+    } else if (f->operation == TERM_UNION && f->term != TERM_NONE) {
+        uint32_t before = scene_marks(s, f->term);
+        if ((marks | before) == CSG_HIGHLIGHT && marks != before)
+            scene_show_apart(s, marks ? term : f->term); // no longer marked, it stays in the union
+    }
+    f->term = scene_fold(s, f->operation, f->term, term);
 }
 
 static void fold(struct walk *w, uint32_t term)
