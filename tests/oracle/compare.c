@@ -1,10 +1,13 @@
 // compare.c - does the device's answer for a pixel agree with the oracle?
 #include "compare.h"
 
+#include <string.h>
+
 const char *const fit_text[FITS_COUNT] = {
     [FITS] = "fits",
     [FIT_NO_LEAF] = "no such leaf",
     [FIT_OWNER_TURNED] = "the owner faces the other way",
+    [FIT_OWNER_IDLE] = "the owner does not matter there",
     [FIT_OWNER_ELSEWHERE] = "the owner has no face there",
     [FIT_FACE] = "another face of the owner",
     [FIT_CAP_ELSEWHERE] = "a cap away from near",
@@ -26,6 +29,27 @@ static bool within(double depth, struct oracle_end end, double tolerance)
     return depth >= end.low - tolerance && depth <= end.high + tolerance;
 }
 
+// Is a face at the end, as far as the filter can tell?
+static bool coincident(const struct comparison *c, const struct oracle_crossing *x,
+                       struct oracle_end end)
+{
+    double gap = fmax(end.low - x->depth, x->depth - end.high);
+    return gap <= c->tolerance || gap * fmax(x->cosine, end.at->cosine) < c->slack * c->epsilon;
+}
+
+static bool end_fits(const struct comparison *c, const struct oracle_ray *ray,
+                     struct oracle_end end, double depth)
+{
+    if (within(depth, end, c->tolerance))
+        return true;
+    for (uint32_t i = 0; i < ray->crossing_count; i++) {
+        const struct oracle_crossing *x = &ray->crossings[i];
+        if (fabs(x->depth - depth) <= c->tolerance && coincident(c, x, end))
+            return true;
+    }
+    return false;
+}
+
 // Does the plane of a face of the leaf hold the end? On an edge the ray may be said to hit either
 // face.
 static bool face_fits(const struct comparison *c, const struct oracle_ray *ray, uint32_t leaf,
@@ -43,26 +67,73 @@ static bool face_fits(const struct comparison *c, const struct oracle_ray *ray, 
     return false;
 }
 
+// Can a crossing turn the result at the end, whichever faces there come before it?
+static bool matters(const struct comparison *c, const struct oracle_ray *ray, struct oracle_end end,
+                    const struct oracle_crossing *owner)
+{
+    enum { OTHERS = 6 };
+    const struct oracle_crossing *others[OTHERS];
+    uint32_t n = 0;
+    memset(ray->count, 0, c->oracle->leaf_count * sizeof *ray->count);
+    for (uint32_t i = 0; i < ray->crossing_count; i++) {
+        const struct oracle_crossing *x = &ray->crossings[i];
+        if (x == owner)
+            continue;
+        if (!coincident(c, x, end)) {
+            ray->count[x->leaf] += x->depth < end.low ? x->delta : 0;
+        } else {
+            if (n == OTHERS)
+                return true; // too many to try
+            others[n++] = x;
+        }
+    }
+    for (uint32_t set = 0; set < 1u << n; set++) {
+        for (uint32_t k = 0; k < n; k++)
+            ray->count[others[k]->leaf] += set >> k & 1 ? others[k]->delta : 0;
+        bool before = oracle_evaluate(c->oracle, ray->count, ray->stack);
+        ray->count[owner->leaf] += owner->delta;
+        bool after = oracle_evaluate(c->oracle, ray->count, ray->stack);
+        ray->count[owner->leaf] -= owner->delta;
+        for (uint32_t k = 0; k < n; k++)
+            ray->count[others[k]->leaf] -= set >> k & 1 ? others[k]->delta : 0;
+        if (before != after)
+            return true;
+    }
+    return false;
+}
+
 // May this leaf and face own the end? way: +1 where solid begins, -1 where it ends.
+static enum fit check_owner_on(const struct comparison *c, const struct oracle_ray *ray,
+                               struct oracle_end end, uint32_t leaf, uint32_t face, int way)
+{
+    enum fit found = FIT_OWNER_ELSEWHERE;
+    for (uint32_t i = 0; i < ray->crossing_count; i++) {
+        const struct oracle_crossing *x = &ray->crossings[i];
+        if (x->leaf != leaf || !coincident(c, x, end))
+            continue;
+        if (c->strict && x->delta * c->oracle->polarity[leaf] != way) {
+            found = FIT_OWNER_TURNED;
+            continue;
+        }
+        if (c->strict && !matters(c, ray, end, x))
+            return FIT_OWNER_IDLE;
+        if (x->face == face)
+            return FITS;
+        found = face_fits(c, ray, leaf, face, end) ? FITS : FIT_FACE;
+    }
+    return found;
+}
+
 static enum fit check_owner(const struct comparison *c, const struct oracle_ray *ray,
                             struct oracle_end end, uint32_t leaf, uint32_t face, int way)
 {
     if (leaf >= c->oracle->leaf_count)
         return FIT_NO_LEAF;
-    bool there = false, turned = false;
-    for (uint32_t i = 0; i < ray->crossing_count; i++) {
-        const struct oracle_crossing *x = &ray->crossings[i];
-        if (x->leaf != leaf || !within(x->depth, end, c->tolerance))
-            continue;
-        bool right = !c->strict || x->delta * c->oracle->polarity[leaf] == way;
-        there |= right;
-        turned |= !right;
-        if (right && x->face == face)
+    enum fit found = check_owner_on(c, ray, end, leaf, face, way);
+    for (int k = 0; k < 9 && found && c->nearby; k++)
+        if (!check_owner_on(c, &c->around[k], end, leaf, face, way))
             return FITS;
-    }
-    if (!there)
-        return turned ? FIT_OWNER_TURNED : FIT_OWNER_ELSEWHERE;
-    return face_fits(c, ray, leaf, face, end) ? FITS : FIT_FACE;
+    return found;
 }
 
 // Does the leaf hold the point at near?
@@ -87,7 +158,7 @@ static enum fit check_cap(const struct comparison *c, const struct oracle_ray *r
 static enum fit check_enter(const struct comparison *c, const struct oracle_ray *ray,
                             struct oracle_end end, double depth, uint32_t leaf, uint32_t face)
 {
-    if (!within(depth, end, c->tolerance))
+    if (!end_fits(c, ray, end, depth))
         return FIT_ENTER;
     return face == SURFACE_CAP ? check_cap(c, ray, end, leaf)
                                : check_owner(c, ray, end, leaf, face, 1);
@@ -107,7 +178,7 @@ static enum fit check_spans(const struct comparison *c, const struct oracle_ray 
                                       s->enter_leaf, s->enter_face);
         if (reason)
             return reason;
-        if (!within(s->leave + c->rays->reference, truth->leave, c->tolerance))
+        if (!end_fits(c, ray, truth->leave, s->leave + c->rays->reference))
             return FIT_LEAVE;
         if (s->leave_leaf == SURFACE_NONE) {
             if (!within(c->rays->far, truth->leave, c->tolerance))
@@ -138,33 +209,48 @@ static enum fit check_pixel(const struct comparison *c, const struct oracle_ray 
 }
 
 // Is the end of a neighbouring ray where the plane of this ray's end says, but for corners?
-static bool end_continues(const struct comparison *c, struct oracle_end here,
-                          struct oracle_end there)
+static bool end_continues(const struct comparison *c, const struct oracle_ray *other,
+                          struct oracle_end here, struct oracle_end there)
 {
     if (here.at->kind != BOUND_FACE || there.at->kind != here.at->kind)
         return there.at->kind == here.at->kind;
     struct vec3 point = vec3_add(c->ray.origin, vec3_scale(c->ray.direction, here.low));
     struct vec3 n = here.at->normal;
-    double along = vec3_dot(n, c->other.direction);
-    double depth = vec3_dot(n, vec3_sub(point, c->other.origin)) / along;
+    double along = vec3_dot(n, other->direction);
+    double depth = vec3_dot(n, vec3_sub(point, other->origin)) / along;
     return fabs(depth - there.low) < c->tolerance / 2;
 }
 
-static bool answers_continue(const struct comparison *c, const struct oracle_answer *here,
-                             const struct oracle_answer *there)
+static bool answers_continue(const struct comparison *c, const struct oracle_ray *other,
+                             const struct oracle_answer *here, const struct oracle_answer *there)
 {
-    if (here->count != there->count)
+    if (here->count != there->count || c->ray.crossing_count != other->crossing_count)
         return false;
     for (uint32_t i = 0; i < here->count; i++)
-        if (!end_continues(c, here->spans[i].enter, there->spans[i].enter) ||
-            !end_continues(c, here->spans[i].leave, there->spans[i].leave))
+        if (!end_continues(c, other, here->spans[i].enter, there->spans[i].enter) ||
+            !end_continues(c, other, here->spans[i].leave, there->spans[i].leave))
             return false;
     return true;
 }
 
-static void cast_aside(struct comparison *c, int x, int y, int k)
+// Is a face near the end, but neither clearly apart from it nor clearly in one place with it?
+static bool undecided(const struct comparison *c, struct oracle_end end)
 {
-    oracle_cast(c->oracle, c->rays, x + aside * (k % 3 - 1), y + aside * (k / 3 - 1), &c->other);
+    for (uint32_t i = 0; i < c->ray.crossing_count; i++) {
+        const struct oracle_crossing *x = &c->ray.crossings[i];
+        double gap = fmax(end.low - x->depth, x->depth - end.high);
+        double thickness = gap * fmax(x->cosine, end.at->cosine) / c->epsilon;
+        if (thickness >= thin[1] && thickness <= thin[2])
+            return true;
+    }
+    return false;
+}
+
+static void cast_around(struct comparison *c, int x, int y)
+{
+    for (int k = 0; k < 9; k++)
+        oracle_cast(c->oracle, c->rays, x + aside * (k % 3 - 1), y + aside * (k / 3 - 1),
+                    &c->around[k]);
 }
 
 bool compare_unstable(struct comparison *c, int x, int y)
@@ -174,12 +260,13 @@ bool compare_unstable(struct comparison *c, int x, int y)
         if (c->trial.count != c->answer.count)
             return true;
     }
+    for (uint32_t i = 0; i < c->answer.count; i++)
+        if (undecided(c, c->answer.spans[i].enter) || undecided(c, c->answer.spans[i].leave))
+            return true;
+    cast_around(c, x, y);
     for (int k = 0; k < 9; k++) {
-        if (k == 4)
-            continue;
-        cast_aside(c, x, y, k);
-        oracle_spans(&c->other, c->epsilon, &c->trial);
-        if (!answers_continue(c, &c->answer, &c->trial))
+        oracle_spans(&c->around[k], c->epsilon, &c->trial);
+        if (!answers_continue(c, &c->around[k], &c->answer, &c->trial))
             return true;
     }
     return false;
@@ -187,31 +274,37 @@ bool compare_unstable(struct comparison *c, int x, int y)
 
 static bool explained(struct comparison *c, const struct picture *p, int x, int y)
 {
-    for (int k = 0; k < 9; k++) {
-        cast_aside(c, x, y, k);
-        for (int i = 0; i < 3; i++) {
-            oracle_spans(&c->other, thin[i] * c->epsilon, &c->trial);
-            if (!check_pixel(c, &c->other, &c->trial, p, y * c->rays->width + x))
-                return true;
+    bool found = false;
+    cast_around(c, x, y);
+    c->slack = thin[2];
+    c->nearby = true;
+    for (int k = 0; k < 9 && !found; k++)
+        for (int i = 0; i < 3 && !found; i++) {
+            oracle_spans(&c->around[k], thin[i] * c->epsilon, &c->trial);
+            found = !check_pixel(c, &c->around[k], &c->trial, p, y * c->rays->width + x);
         }
-    }
-    return false;
+    c->slack = thin[1];
+    c->nearby = false;
+    return found;
 }
 
 enum verdict compare_pixel(struct comparison *c, const struct picture *p, int x, int y)
 {
+    int i = y * c->rays->width + x;
+    c->slack = thin[1];
     oracle_cast(c->oracle, c->rays, x, y, &c->ray);
     oracle_spans(&c->ray, c->epsilon, &c->answer);
     c->strict = true;
-    c->reason = check_pixel(c, &c->ray, &c->answer, p, y * c->rays->width + x);
+    c->reason = check_pixel(c, &c->ray, &c->answer, p, i);
     if (!c->reason)
         return VERDICT_AGREES;
+    bool unstable = compare_unstable(c, x, y);
     c->strict = false;
-    enum fit loose = check_pixel(c, &c->ray, &c->answer, p, y * c->rays->width + x);
+    enum fit loose = check_pixel(c, &c->ray, &c->answer, p, i);
     if (!loose)
-        return VERDICT_TURNED;
+        return unstable ? VERDICT_FORGIVEN : VERDICT_OWNER;
     c->reason = loose;
-    if (!compare_unstable(c, x, y))
+    if (!unstable)
         return VERDICT_WRONG;
     return explained(c, p, x, y) ? VERDICT_FORGIVEN : VERDICT_UNEXPLAINED;
 }
@@ -219,7 +312,8 @@ enum verdict compare_pixel(struct comparison *c, const struct picture *p, int x,
 void compare_free(struct comparison *c)
 {
     oracle_ray_free(&c->ray);
-    oracle_ray_free(&c->other);
+    for (int k = 0; k < 9; k++)
+        oracle_ray_free(&c->around[k]);
     oracle_answer_free(&c->answer);
     oracle_answer_free(&c->trial);
 }

@@ -11,6 +11,7 @@ enum fit { // what does not fit
     FITS,
     FIT_NO_LEAF,
     FIT_OWNER_TURNED,
+    FIT_OWNER_IDLE,
     FIT_OWNER_ELSEWHERE,
     FIT_FACE,
     FIT_CAP_ELSEWHERE,
@@ -28,7 +29,7 @@ extern const char *const fit_text[FITS_COUNT];
 
 enum verdict {
     VERDICT_AGREES,
-    VERDICT_TURNED,      // but the owner of an end faces the wrong way for it
+    VERDICT_OWNER,       // but an end belongs to a coincident face that does not make it
     VERDICT_FORGIVEN,    // unstable, and one of the answers nearby
     VERDICT_UNEXPLAINED, // unstable, and none of them
     VERDICT_WRONG,
@@ -40,10 +41,12 @@ struct comparison { // {0} but for what is borrowed; one per thread
     const struct rays *rays;
     double epsilon;
     double tolerance; // of depth
-    struct oracle_ray ray, other;
+    struct oracle_ray ray, around[9];
     struct oracle_answer answer, trial;
     enum fit reason; // at the pixel itself
-    bool strict;     // owners must face the right way
+    bool strict;     // owners must face the right way and matter
+    bool nearby;     // owners may be on any of the rays around
+    double slack;    // faces closer than this times epsilon are in one place
 };
 
 enum verdict compare_pixel(struct comparison *c, const struct picture *p, int x, int y);

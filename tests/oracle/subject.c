@@ -6,6 +6,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+// From the last token back: each operator hands its side to its operands, last operand on top.
+static void mark_subtracted(struct body *b, const struct random_scene *scene)
+{
+    bool *stack = mem_zalloc(scene->token_count + 1);
+    uint32_t top = 1;
+    for (uint32_t i = scene->token_count; i-- > 0;) {
+        struct expr_token token = scene->tokens[i];
+        bool subtracted = stack[--top];
+        if (token.op == EXPR_LEAF)
+            b->leaves[token.arg].subtracted = subtracted;
+        else
+            for (uint32_t k = 0; k < token.arg; k++)
+                stack[top++] = subtracted != (token.op == EXPR_DIFFERENCE && k > 0);
+    }
+    free(stack);
+}
+
 static void make_leaves(struct subject *s, const struct random_scene *scene)
 {
     for (uint32_t i = 0; i < scene->leaf_count; i++) {
@@ -36,6 +53,7 @@ void subject_make(struct subject *out, const struct random_scene *scene)
     b->leaves = mem_zalloc(n * sizeof *b->leaves);
     b->roi = mem_alloc((n + 1) * sizeof *b->roi);
     make_leaves(out, scene);
+    mark_subtracted(b, scene);
 
     struct box *boxes = mem_alloc((n + 1) * sizeof *boxes);
     bool *flags = mem_alloc(n + 1);

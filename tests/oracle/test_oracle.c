@@ -113,14 +113,14 @@ static double percent(uint64_t part, uint64_t whole)
 
 static void print_outcome(const char *name, const struct outcome *o)
 {
-    printf("%s: %llu pixels, %.1f %% hit, %llu forgiven (%.4f %%), %llu turned, %llu unexplained, "
+    printf("%s: %llu pixels, %.1f %% hit, %llu forgiven (%.4f %%), %llu owner, %llu unexplained, "
            "%llu "
            "wrong, "
            "%.3f %% unstable, %llu open rays\n",
            name, (unsigned long long)o->pixels, percent(o->hits, o->pixels),
            (unsigned long long)o->verdicts[VERDICT_FORGIVEN],
            percent(o->verdicts[VERDICT_FORGIVEN], o->pixels),
-           (unsigned long long)o->verdicts[VERDICT_TURNED],
+           (unsigned long long)o->verdicts[VERDICT_OWNER],
            (unsigned long long)o->verdicts[VERDICT_UNEXPLAINED],
            (unsigned long long)o->verdicts[VERDICT_WRONG], percent(o->unstable, o->probed),
            (unsigned long long)o->open);
@@ -129,13 +129,26 @@ static void print_outcome(const char *name, const struct outcome *o)
             printf("  %llu pixels: %s\n", (unsigned long long)o->reasons[i], fit_text[i]);
 }
 
-// Excluded pixels must stay rare, or the comparison would prove little.
+// Excluded pixels must stay rare, or the comparison would prove little. Of coincident faces the
+// device may name one that does not make the surface, on few pixels: depth is right there, colour
+// may not be.
 static bool acceptable(const struct outcome *o, bool aligned)
 {
-    return o->verdicts[VERDICT_WRONG] == 0 && o->verdicts[VERDICT_TURNED] == 0 && o->open == 0 &&
-           percent(o->verdicts[VERDICT_FORGIVEN], o->pixels) < (aligned ? 100 : 0.5) &&
-           percent(o->verdicts[VERDICT_UNEXPLAINED], o->pixels) < (aligned ? 0.5 : 0.001) &&
-           (aligned || percent(o->unstable, o->probed) < 2);
+    const uint64_t *v = o->verdicts;
+    return v[VERDICT_WRONG] == 0 && o->open == 0 && percent(v[VERDICT_OWNER], o->pixels) < 1 &&
+           percent(v[VERDICT_FORGIVEN], o->pixels) < (aligned ? 5 : 0.1) &&
+           percent(v[VERDICT_UNEXPLAINED], o->pixels) < (aligned ? 0.5 : 0.001) &&
+           percent(o->unstable, o->probed) < (aligned ? 20 : 2);
+}
+
+static void print_seed(uint64_t seed, const struct outcome *o)
+{
+    printf("seed %llu: %llu wrong, %llu unexplained, %llu owner, %llu open rays, %s: "
+           "--seed %llu --pixel %d %d\n",
+           (unsigned long long)seed, (unsigned long long)o->verdicts[VERDICT_WRONG],
+           (unsigned long long)o->verdicts[VERDICT_UNEXPLAINED],
+           (unsigned long long)o->verdicts[VERDICT_OWNER], (unsigned long long)o->open,
+           fit_text[o->reason], (unsigned long long)seed, o->x, o->y);
 }
 
 static int run_random(const struct options *options)
@@ -144,24 +157,22 @@ static int run_random(const struct options *options)
     struct job job = {options, outcomes};
     parallel_for(options->count, options->threads, compare_seed, &job);
     struct outcome sum[2] = {{0}, {0}};
-    uint32_t shown = 0, empty = 0;
+    uint32_t shown[4] = {0}, empty = 0;
     for (uint32_t i = 0; i < options->count; i++) {
         const struct outcome *o = &outcomes[i];
         add_outcome(&sum[o->aligned], o);
         empty += o->hits == 0;
-        bool wrong = o->verdicts[VERDICT_WRONG] || o->verdicts[VERDICT_TURNED] ||
-                     (o->verdicts[VERDICT_UNEXPLAINED] && !o->aligned);
-        if ((wrong || o->open) && shown++ < 30)
-            printf(
-                "seed %llu: %llu wrong, %llu unexplained, %llu open rays, %s: --seed %llu --pixel "
-                "%d %d\n",
-                (unsigned long long)(options->seed + i),
-                (unsigned long long)o->verdicts[VERDICT_WRONG],
-                (unsigned long long)o->verdicts[VERDICT_UNEXPLAINED], (unsigned long long)o->open,
-                fit_text[o->reason], (unsigned long long)(options->seed + i), o->x, o->y);
+        bool strange = o->worst == VERDICT_UNEXPLAINED && o->aligned;
+        int kind = o->worst == VERDICT_WRONG || o->open          ? 0
+                   : o->worst == VERDICT_UNEXPLAINED && !strange ? 1
+                   : o->verdicts[VERDICT_OWNER]                  ? 2
+                   : strange                                     ? 3
+                                                                 : 4;
+        if (kind < 4 && shown[kind]++ < 8)
+            print_seed(options->seed + i, o);
     }
     printf("%u trees from seed %llu, %u of them without a surface, %u with errors\n",
-           options->count, (unsigned long long)options->seed, empty, shown);
+           options->count, (unsigned long long)options->seed, empty, shown[0] + shown[1]);
     print_outcome("generic", &sum[0]);
     print_outcome("pixels on faces seen edge-on", &sum[1]);
     free(outcomes);
