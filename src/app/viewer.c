@@ -4,6 +4,7 @@
 #include "app/drawing.h"
 #include "app/input.h"
 #include "app/loader.h"
+#include "app/pace.h"
 #include "app/window.h"
 #include "base/clock.h"
 #include "base/mem.h"
@@ -18,7 +19,6 @@
 // A frame that follows the hand takes this long at most; what is slower is drawn with fewer pixels
 // and refined when nothing moved for a while.
 static const double frame_seconds = 0.033, still_seconds = 0.12;
-enum { DIVISOR_MOST = 8 };
 
 struct viewer {
     const struct viewer_options *options;
@@ -28,12 +28,12 @@ struct viewer {
     struct drawing *drawing;
     struct loaded *loaded; // the newest
     struct shot shown;
-    bool framed;         // the camera stands
-    bool drawn;          // a shot of the newest job was shown
-    int divisor;         // of the newest job
-    double refine_at;    // when a coarse job may be followed by a full one
-    double setup, pixel; // seconds of the last shot: fixed, and for each pixel
-    uint32_t reported;   // number of the last load whose way was printed
+    bool framed;      // the camera stands
+    bool drawn;       // a shot of the newest job was shown
+    int divisor;      // of the newest job
+    double refine_at; // when a coarse job may be followed by a full one
+    struct pace pace;
+    uint32_t reported; // number of the last load whose way was printed
     char *message;
     bool failed, busy, ended;
     bool help, hide_messages, save;
@@ -90,24 +90,13 @@ static void take_news(struct viewer *v)
     show_state(v);
 }
 
-// How many pixels of the window, across, one of the picture has to stand for.
-static int choose_divisor(const struct viewer *v, int width, int height)
-{
-    double pixels = (double)width * height;
-    int divisor = 1;
-    while (divisor < DIVISOR_MOST &&
-           v->setup + v->pixel * pixels / (divisor * divisor) > frame_seconds)
-        divisor++;
-    return divisor;
-}
-
 static void ask(struct viewer *v, bool refined)
 {
     int width, height;
     glfwGetFramebufferSize(window_handle(v->window), &width, &height);
     if (!v->loaded || width < 1 || height < 1)
         return;
-    v->divisor = refined ? 1 : choose_divisor(v, width, height);
+    v->divisor = refined ? 1 : pace_divisor(&v->pace, width, height, frame_seconds);
     v->drawn = false;
     struct drawing_job job = {
         .loaded = v->loaded,
@@ -164,9 +153,7 @@ static void take_shot(struct viewer *v)
     if (!drawing_take(v->drawing, &v->shown))
         return;
     struct shot *s = &v->shown;
-    double pixels = (double)s->job.width * s->job.height;
-    v->setup = s->stats.seconds_setup;
-    v->pixel = (s->done - s->begun - v->setup) / pixels;
+    pace_add(&v->pace, (double)s->job.width * s->job.height, s->done - s->begun);
     window_set_picture(v->window, s->rgb, s->job.width, s->job.height, s->job.divisor > 1);
     window_paint(v->window);
     v->input.exposed = false;
