@@ -105,7 +105,8 @@ static bool bench_scene(struct result *r, struct error *err)
                                             .threads = r->threads,
                                             .limit = given.limit,
                                             .pictures = given.pictures};
-    return !given.opencsg || opponent_measure(r, csg, &theirs, err);
+    bool drawable = r->scene->at_least > 0;
+    return !given.opencsg || !drawable || opponent_measure(r, csg, &theirs, err);
 }
 
 static bool bench_scenes(FILE *tsv, char **names, int count, struct error *err)

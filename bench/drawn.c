@@ -217,17 +217,27 @@ void drawn_begin(struct drawn *d, const struct rays *rays)
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glColorMaterial(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE);
-    glEnableClientState(GL_VERTEX_ARRAY);
+}
+
+// OpenCSG draws from arrays of its own in between: it must find no buffer bound.
+static void bind(GLuint vertices, GLuint indices)
+{
+    glBindBuffer(GL_ARRAY_BUFFER, vertices);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices);
+    if (vertices)
+        glEnableClientState(GL_VERTEX_ARRAY);
+    else
+        glDisableClientState(GL_VERTEX_ARRAY);
 }
 
 void drawn_depth(struct drawn *d, uint32_t leaf)
 {
     const struct leaf_range *r = &d->ranges[leaf];
-    glBindBuffer(GL_ARRAY_BUFFER, d->buffers[0]);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, d->buffers[1]);
+    bind(d->buffers[0], d->buffers[1]);
     glVertexPointer(3, GL_FLOAT, sizeof(struct vertex), NULL);
     glDrawElements(GL_TRIANGLES, r->count, GL_UNSIGNED_INT,
                    (const char *)NULL + (size_t)r->first_index * sizeof(uint32_t));
+    bind(0, 0);
 }
 
 void drawn_colour(struct drawn *d, uint32_t leaf, enum drawn_sides sides)
@@ -245,13 +255,14 @@ void drawn_colour(struct drawn *d, uint32_t leaf, enum drawn_sides sides)
     glEnable(GL_CULL_FACE);
     glCullFace(sides == DRAWN_OUTSIDE ? GL_BACK : GL_FRONT);
     glColor3fv(c);
-    glBindBuffer(GL_ARRAY_BUFFER, d->buffers[2]);
+    bind(d->buffers[2], 0);
     glVertexPointer(3, GL_FLOAT, sizeof(struct lit_vertex), NULL);
     glEnableClientState(GL_NORMAL_ARRAY);
     glNormalPointer(GL_FLOAT, sizeof(struct lit_vertex),
                     (const char *)NULL + offsetof(struct lit_vertex, normal));
     glDrawArrays(GL_TRIANGLES, r->first_index, r->count);
     glDisableClientState(GL_NORMAL_ARRAY);
+    bind(0, 0);
     glDisable(GL_CULL_FACE);
     glDisable(GL_COLOR_MATERIAL);
     glDisable(GL_LIGHTING);

@@ -118,30 +118,6 @@ static void measure_turn(struct stage *s)
     r->fragments /= r->picture.count;
     r->covered /= r->picture.count;
     r->nanoseconds = per_fragment(s, samples_median(&r->draw), r->fragments);
-    for (uint32_t i = 0; i < s->model.body_count; i++) {
-        struct discovery_stats t = discovery_stats(s->model.bodies[i].table);
-        if (t.combinations >= r->table.combinations)
-            r->table = t;
-    }
-}
-
-// Pairs of frames of one view, so that whatever slows the machine down slows both.
-static void measure_empty(struct stage *s)
-{
-    struct result *r = s->result;
-    struct render_stats stats;
-    double spent = 0;
-    for (uint32_t i = 0; i < s->options->frames && (i == 0 || spent < s->options->limit); i++) {
-        forget(s);
-        double empty = draw(s, i, &stats);
-        r->misses += (double)stats.misses;
-        double filled = draw(s, i, &stats);
-        samples_add(&r->empty, empty);
-        samples_add(&r->filled, filled);
-        samples_add(&r->extra, empty / filled - 1);
-        spent += (empty + filled) / 1e3;
-    }
-    r->misses /= r->empty.count;
 }
 
 struct count { // per worker, on cache lines of their own
@@ -172,6 +148,7 @@ static double draw_spans(struct stage *s, uint32_t view, struct render_stats *su
         struct render_stats stats = {0};
         cpu_spans(s->device, &s->model.bodies[i], &rays, &s->settings, count_spans, counts, &stats);
         sum->fragments += stats.fragments;
+        sum->misses += stats.misses;
         sum->seconds_draw += stats.seconds_draw;
         note_peak(s, &stats);
     }
@@ -202,6 +179,33 @@ static void measure_spans(struct stage *s)
     r->intervals /= r->spans.count;
     r->span_nanoseconds = per_fragment(s, samples_median(&inside), r->span_fragments);
     samples_free(&inside);
+    for (uint32_t i = 0; i < s->model.body_count; i++) {
+        struct discovery_stats t = discovery_stats(s->model.bodies[i].table);
+        if (t.combinations >= r->table.combinations)
+            r->table = t;
+    }
+}
+
+// Pairs of frames of one view, so that whatever slows the machine down slows both.
+static void measure_empty(struct stage *s)
+{
+    struct result *r = s->result;
+    struct render_stats stats;
+    uint64_t intervals;
+    double spent = 0;
+    for (uint32_t i = 0; i < s->options->frames && (i == 0 || spent < s->options->limit); i++) {
+        forget(s);
+        double empty = draw(s, i, &stats), filled = draw(s, i, &stats);
+        samples_add(&r->picture_extra, empty / filled - 1);
+        spent += (empty + filled) / 1e3;
+        forget(s);
+        empty = draw_spans(s, i, &stats, &intervals);
+        r->misses += (double)stats.misses;
+        filled = draw_spans(s, i, &stats, &intervals);
+        samples_add(&r->spans_extra, empty / filled - 1);
+        spent += (empty + filled) / 1e3;
+    }
+    r->misses /= r->spans_extra.count;
 }
 
 static void measure_walk(struct stage *s, int which, enum walk walk)
@@ -265,8 +269,8 @@ bool measure_scene(struct result *out, const char *csg, const struct measure_opt
         ok = write_picture(&s, err);
     if (ok) {
         measure_turn(&s);
-        measure_empty(&s);
         measure_spans(&s);
+        measure_empty(&s);
         measure_walk(&s, WALK_BY_HASH, WALK_HASH);
         if (out->leaves <= ARRAY_LEAVES)
             measure_walk(&s, WALK_BY_ARRAY, WALK_ARRAY);

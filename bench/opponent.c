@@ -49,6 +49,7 @@ static void read_output(struct result *r, struct opencsg_result *to, char *text)
                 samples_add(&to->frames, ms);
             first = false;
         }
+        (void)!sscanf(line, "renderer %127[^\n]", r->renderer);
         (void)!sscanf(line, "products %u", &r->products);
         (void)!sscanf(line, "literals %u", &r->literals);
     }

@@ -45,10 +45,9 @@ void report_rows(FILE *tsv, const struct result *r)
     row(tsv, name, "setup_ms", &r->setup);
     row(tsv, name, "draw_ms", &r->draw);
     row(tsv, name, "shade_ms", &r->shade);
-    row(tsv, name, "empty_table_ms", &r->empty);
-    row(tsv, name, "filled_table_ms", &r->filled);
-    row(tsv, name, "empty_table_extra", &r->extra);
+    row(tsv, name, "opaque_empty_table_extra", &r->picture_extra);
     row(tsv, name, "intervals_ms", &r->spans);
+    row(tsv, name, "intervals_empty_table_extra", &r->spans_extra);
     row(tsv, name, "hash_opaque_ms", &r->walk_picture[WALK_BY_HASH]);
     row(tsv, name, "hash_intervals_ms", &r->walk_spans[WALK_BY_HASH]);
     row(tsv, name, "array_opaque_ms", &r->walk_picture[WALK_BY_ARRAY]);
@@ -112,13 +111,14 @@ void report_process_row(FILE *tsv, const struct process_result *p)
 
 static void against_opencsg(FILE *out, const struct result *results, uint32_t count)
 {
+    const char *renderer = NULL;
     fprintf(out, "\n### Against OpenCSG\n\n"
                  "| scene | primitives | products | automatic | automatic, boxes | SCS, queries | "
                  "Goldfeather, queries | hcsg ms | best / hcsg | at least | after |\n"
                  "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     for (uint32_t i = 0; i < count; i++) {
         const struct result *r = &results[i];
-        if (result_best_opencsg(r) < 0)
+        if (!r->products)
             continue;
         fprintf(out, "| %s | %u | %u |", r->scene->name, r->leaves, r->products);
         for (int k = 0; k < OPENCSG_SETTINGS; k++) {
@@ -129,29 +129,55 @@ static void against_opencsg(FILE *out, const struct result *results, uint32_t co
                 fprintf(out, " %s |", o->late ? "too slow" : "–");
         }
         fprintf(out, " %.1f | **%.1f** |", samples_median(&r->picture), ratio(r));
-        if (r->scene->at_least > 0)
-            fprintf(out, " %g | %g |\n", r->scene->at_least, r->scene->after);
-        else
-            fprintf(out, " – | – |\n");
+        fprintf(out, " %g | %g |\n", r->scene->at_least, r->scene->after);
+        renderer = r->renderer;
     }
+    if (renderer)
+        fprintf(out, "\nOpenGL: %s.\n", renderer);
+}
+
+// A figure that only makes sense where there are fragments.
+static void print_fragments(FILE *out, double fragments, double nanoseconds)
+{
+    if (fragments > 0)
+        fprintf(out, " %.2f | %.1f |", fragments / 1e6, nanoseconds);
+    else
+        fprintf(out, " – | – |");
+}
+
+// Time of the frame in which nothing is to be decided; 0 when it was not measured.
+static double floor_ms(const struct result *results, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (strcmp(results[i].scene->name, "plain") == 0)
+            return samples_median(&results[i].picture);
+    return 0;
 }
 
 static void frames(FILE *out, const struct result *results, uint32_t count)
 {
+    double least = floor_ms(results, count);
     fprintf(out, "\n### Frames\n\n"
-                 "| scene | opaque ms, median (min, n) | empty table | covered | Mfragments | ns | "
-                 "all intervals ms, median (min, n) | Mfragments | ns | intervals per pixel |\n"
-                 "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+                 "| scene | covered | opaque ms, median (min, n) | of plain | empty table | "
+                 "Mfragments | ns | "
+                 "all intervals ms, median (min, n) | empty table | Mfragments | ns | "
+                 "intervals per pixel |\n"
+                 "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     for (uint32_t i = 0; i < count; i++) {
         const struct result *r = &results[i];
-        double pixels = (double)r->size * r->size;
-        fprintf(out, "| %s | %.1f (%.1f, %u) | %+.1f %% | %.0f %% | %.2f | %.1f |", r->scene->name,
-                samples_median(&r->picture), samples_least(&r->picture), r->picture.count,
-                samples_median(&r->extra) * 100, r->covered * 100, r->fragments / 1e6,
-                r->nanoseconds);
-        fprintf(out, " %.1f (%.1f, %u) | %.2f | %.1f | %.2f |\n", samples_median(&r->spans),
-                samples_least(&r->spans), r->spans.count, r->span_fragments / 1e6,
-                r->span_nanoseconds, r->covered > 0 ? r->intervals / (pixels * r->covered) : 0);
+        double pixels = (double)r->size * r->size * r->covered;
+        fprintf(out, "| %s | %.0f %% | %.1f (%.1f, %u) |", r->scene->name, r->covered * 100,
+                samples_median(&r->picture), samples_least(&r->picture), r->picture.count);
+        if (least > 0)
+            fprintf(out, " %.1f x |", samples_median(&r->picture) / least);
+        else
+            fprintf(out, " – |");
+        fprintf(out, " %+.1f %% |", samples_median(&r->picture_extra) * 100);
+        print_fragments(out, r->fragments, r->nanoseconds);
+        fprintf(out, " %.1f (%.1f, %u) | %+.1f %% |", samples_median(&r->spans),
+                samples_least(&r->spans), r->spans.count, samples_median(&r->spans_extra) * 100);
+        print_fragments(out, r->span_fragments, r->span_nanoseconds);
+        fprintf(out, " %.2f |\n", pixels > 0 ? r->intervals / pixels : 0);
     }
 }
 
@@ -175,7 +201,7 @@ static void tables(FILE *out, const struct result *results, uint32_t count)
 {
     fprintf(out, "\n### Tables of combinations\n\n"
                  "| scene | values | combinations | places | occupancy | mean age | largest age | "
-                 "rebuilds | KB | evaluated in a frame from empty |\n"
+                 "rebuilds | KB | evaluated in a frame of all intervals from empty |\n"
                  "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     for (uint32_t i = 0; i < count; i++) {
         const struct result *r = &results[i];

@@ -33,20 +33,21 @@ struct result {
     double cold;            // the very first frame
     struct samples picture; // a turn, from ray to RGB, table kept from view to view
     struct samples setup, draw, shade;
-    struct samples empty;  // the same views, each from an empty table
-    struct samples filled; // each drawn again straight after
-    struct samples extra;  // time of the former over the latter, less 1
-    struct samples spans;  // all intervals, nothing shaded
+    struct samples spans; // all intervals, nothing shaded
+    // The same from an empty table, over the time of the same view drawn again straight after,
+    // less 1.
+    struct samples picture_extra, spans_extra;
     struct samples walk_picture[WALKS], walk_spans[WALKS]; // by the paper's hash, by its array
     double fragments, span_fragments;                      // mean of a frame
     double nanoseconds, span_nanoseconds; // per fragment and core, of drawing alone
     double intervals;                     // mean of a frame
     double covered;                       // share of the pixels that show something
-    double misses;                        // combinations evaluated in a frame from an empty table
+    double misses; // combinations evaluated for all intervals from an empty table
     struct discovery_stats table;
     size_t peak_bytes; // of all frames
     struct opencsg_result opencsg[OPENCSG_SETTINGS];
     uint32_t products, literals;
+    char renderer[128]; // of OpenGL
 };
 
 void result_free(struct result *r); // leaves {0}

@@ -4,7 +4,7 @@
 
 struct scene {
     char name[64];
-    double at_least, after; // OpenCSG's time over ours; 0: no target
+    double at_least, after; // OpenCSG's time over ours; 0: left out
 };
 
 struct scenes { // {0} is valid

@@ -10,6 +10,8 @@ copies = 100; // [1:1:1000]
 fn = 12; // [8:1:128]
 // Edge of the region that holds the centres of the copies
 size = 100; // [10:1:1000]
+// Distance of a primitive from the middle of its copy, at most, as a fraction of the region
+jitter = 0.1; // [0:0.01:0.5]
 // Random seed
 seed = 1; // [1:1:1000]
 
@@ -23,7 +25,7 @@ $fn = fn;
 // Primitive number j of copy i: around the middle of the copy, so that all of them meet.
 module p(i, j, r) {
   b = 33 * i + 3 * (j + 1);
-  translate([for (a = [0 : 2]) (u[b + a] - 0.5) * 0.10 * size])
+  translate([for (a = [0 : 2]) (u[b + a] - 0.5) * jitter * size])
     if (j % 3 == 2) cube(1.5 * r * size, center = true);
     else sphere(r = r * size);
 }
