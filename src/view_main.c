@@ -4,6 +4,7 @@
 #include "base/options.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -106,6 +107,7 @@ int main(int argc, char **argv)
     struct viewer_options o;
     int files;
     bool shown = false;
+    signal(SIGPIPE, SIG_IGN); // who reads --stats may go; the window stays
     switch (options_parse(&program, argc, argv, &files, &err)) {
     case OPTIONS_DONE:
         return 0;

@@ -31,6 +31,8 @@ struct loader {
     uv_signal_t interrupt, terminate;
     struct watch *watch;
     struct scad_job *job;
+    char **files; // that the design depends on, as far as known
+    uint32_t file_count, file_capacity;
     struct solid_store *store;
     uint32_t loads;
     double noticed;    // of the load under way
@@ -216,6 +218,30 @@ static void load_csg(struct loader *l)
     messages_free(&m);
 }
 
+static void forget_files(struct loader *l)
+{
+    for (uint32_t i = 0; i < l->file_count; i++)
+        free(l->files[i]);
+    l->file_count = 0;
+}
+
+// After a failure openscad does not tell all files: the ones from before still matter.
+static void follow_files(struct loader *l, const struct scad_result *result, bool complete)
+{
+    if (complete)
+        forget_files(l);
+    for (uint32_t i = 0; i < result->file_count; i++) {
+        uint32_t known = 0;
+        while (known < l->file_count && strcmp(l->files[known], result->files[i]) != 0)
+            known++;
+        if (known < l->file_count)
+            continue;
+        array_reserve(&l->files, &l->file_capacity, l->file_count + 1);
+        l->files[l->file_count++] = mem_strdup(result->files[i]);
+    }
+    watch_set(l->watch, l->files, l->file_count);
+}
+
 static void on_exported(void *context, struct scad_result *result, const struct error *err)
 {
     struct loader *l = context;
@@ -225,8 +251,8 @@ static void on_exported(void *context, struct scad_result *result, const struct 
         messages_add(&m, MESSAGE_ERROR, (struct place){0}, "%s", err->text);
     else
         relay_log(result->log, &m);
-    if (l->watch && result->file_count)
-        watch_set(l->watch, result->files, result->file_count);
+    if (l->watch)
+        follow_files(l, result, !err);
     if (!result->text)
         fail(l, &m);
     else if (!take_text(l, result->name, result->text, result->size, clock_seconds(), &m))
@@ -305,15 +331,17 @@ static void on_wake(uv_async_t *handle)
 static void run(void *context)
 {
     struct loader *l = context;
-    char *path = mem_strdup(l->options.path);
     l->store = solid_store_new();
     if (l->options.watch) {
         l->watch = watch_new(&l->loop, on_saved, l);
-        watch_set(l->watch, &path, 1);
+        array_reserve(&l->files, &l->file_capacity, 1);
+        l->files[l->file_count++] = mem_strdup(l->options.path);
+        watch_set(l->watch, l->files, l->file_count);
     }
-    free(path);
     load(l, clock_seconds());
     uv_run(&l->loop, UV_RUN_DEFAULT);
+    forget_files(l);
+    free(l->files);
     solid_store_delete(l->store);
 }
 

@@ -136,7 +136,7 @@ scad)
 # "slow": waits before it exports; "wrong": does not export; otherwise the design is the export.
 echo begin >> log
 if grep -q slow "$5"; then sleep 30; fi
-if grep -q wrong "$5"; then echo "ERROR: no good in file p.scad, line 1" >&2; exit 1; fi
+if grep -q wrong "$5" part; then echo "ERROR: no good in file p.scad, line 1" >&2; exit 1; fi
 cat "$5" part > "$2"
 printf '%s: \\\n\t%s/part \\\n\t%s\n' "$2" "$PWD" "$5" > "$4"
 echo end >> log
@@ -147,12 +147,15 @@ EOF
     wait_for out "load 1:"; shot first
     box 20 > part # a file that the design depends on
     wait_for out "load 2:"; shot second; differ first second
-    echo wrong > p.scad
+    echo wrong > part # the message names another file; the right one is still followed
     wait_for err "p.scad:1: no good"; shot wrong; same second wrong $above
+    box 20 > part
+    wait_for out "load 3:"; shot right; same second right
+    echo wrong > p.scad; shot wrong; same second wrong $above
     echo slow > p.scad; sleep 0.5
     : > part; box 10 > p.scad # kills the slow one
-    wait_for out "load 3:"; shot third; same first third
-    [ "$(grep -c begin log)" -ge 4 ] || fail "openscad was not started anew"
+    wait_for out "load 4:"; shot third; same first third
+    [ "$(grep -c begin log)" -ge 6 ] || fail "openscad was not started anew"
     echo slow > p.scad; sleep 0.3
     quit # while openscad runs
     [ -z "$(pgrep -f "$work/played" || true)" ] || fail "openscad outlives the window"
