@@ -201,7 +201,8 @@ static void add_boundary(struct oracle_ray *ray, struct oracle_boundary b)
 
 static void walk(const struct oracle *o, const struct rays *rays, struct oracle_ray *ray)
 {
-    memset(ray->count, 0, o->leaf_count * sizeof *ray->count);
+    if (o->leaf_count)
+        memset(ray->count, 0, o->leaf_count * sizeof *ray->count);
     ray->boundary_count = 0;
     bool solid = false, started = false;
     uint32_t i = 0;
