@@ -85,22 +85,29 @@ static void publish(struct loader *l, struct loaded *loaded, char *message, bool
     l->options.woken(l->options.context);
 }
 
-// The first error or else the first warning, with the line it speaks of, and how many more.
+static size_t put_message(char *text, size_t used, size_t size, const struct message *m)
+{
+    const char *source = m->source ? m->source : "";
+    int n = snprintf(text + used, size - used, "%s%s%s%s", used ? "\n" : "", m->text,
+                     *source ? "\n" : "", source);
+    return n > 0 && (size_t)n < size - used ? used + (size_t)n : size - 1;
+}
+
+// The first messages, errors before warnings, and how many more there are.
 static char *summary(const struct messages *m)
 {
-    const struct message *shown = NULL;
-    for (uint32_t i = 0; i < m->count; i++)
-        if (!shown || (shown->level == MESSAGE_WARNING && m->items[i].level == MESSAGE_ERROR))
-            shown = &m->items[i];
-    if (!shown)
-        return mem_strdup("");
-    uint32_t more = m->warnings + m->errors - 1;
-    const char *source = shown->source ? shown->source : "";
-    size_t size = strlen(shown->text) + strlen(source) + 64;
-    char *text = mem_alloc(size);
-    int n = snprintf(text, size, "%s%s%s", shown->text, *source ? "\n" : "", source);
-    if (more)
-        snprintf(text + n, size - (size_t)n, "\n(and %u more)", more);
+    enum { SHOWN = 4, SIZE = 8192 };
+    char *text = mem_zalloc(SIZE);
+    size_t used = 0;
+    uint32_t shown = 0;
+    for (int warnings = 0; warnings < 2; warnings++)
+        for (uint32_t i = 0; i < m->count && shown < SHOWN; i++)
+            if ((m->items[i].level == MESSAGE_WARNING) == warnings) {
+                used = put_message(text, used, SIZE, &m->items[i]);
+                shown++;
+            }
+    if (m->warnings + m->errors > shown)
+        snprintf(text + used, SIZE - used, "\n(and %u more)", m->warnings + m->errors - shown);
     return text;
 }
 

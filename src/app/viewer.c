@@ -250,6 +250,7 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
         run(&v);
     }
     *ok = v.loaded || options->watch;
+    glfwHideWindow(window_handle(v.window)); // the threads may still have something to end
     drawing_stop(v.drawing);
     shot_free(&v.shown);
     loaded_release(v.loaded);
