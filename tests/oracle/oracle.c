@@ -53,7 +53,7 @@ void oracle_init(struct oracle *out, const struct oracle_leaf *leaves, uint32_t 
                  const struct expr_token *tokens, size_t token_count)
 {
     *out = (struct oracle){.leaf_count = leaf_count, .tokens = tokens, .token_count = token_count};
-    out->leaves = mem_alloc(leaf_count * sizeof *out->leaves);
+    out->leaves = mem_alloc((leaf_count + 1) * sizeof *out->leaves);
     for (uint32_t i = 0; i < leaf_count; i++) {
         place_leaf(&out->leaves[i], &leaves[i]);
         if (leaves[i].mesh->vertex_count > out->max_vertices)
@@ -241,7 +241,7 @@ void oracle_cast(const struct oracle *o, const struct rays *rays, double x, doub
 {
     ray->origin = rays_origin(rays, x, y);
     ray->direction = rays_direction(rays, x, y);
-    array_reserve(&ray->count, &ray->count_capacity, o->leaf_count);
+    array_reserve(&ray->count, &ray->count_capacity, o->leaf_count + 1);
     array_reserve(&ray->stack, &ray->stack_capacity, o->token_count + 1);
     array_reserve(&ray->projected, &ray->projected_capacity, o->max_vertices);
     ray->crossing_count = 0;
