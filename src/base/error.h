@@ -23,7 +23,7 @@ enum message_level { MESSAGE_WARNING, MESSAGE_ERROR };
 
 struct message {
     enum message_level level;
-    char *text; // one line, with its place in front
+    char *text;   // one line, with its place in front
     char *source; // the line of the file it speaks of and a caret line under it, or NULL
 };
 

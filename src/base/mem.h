@@ -4,8 +4,8 @@
 #include <stdint.h>
 
 // Out of memory ends the program with one line on stderr: no caller could do better.
-void *mem_alloc(size_t size);                 // uninitialised
-void *mem_zalloc(size_t size);                // zeroed
+void *mem_alloc(size_t size);  // uninitialised
+void *mem_zalloc(size_t size); // zeroed
 void *mem_realloc(void *p, size_t size);
 void *mem_aligned(size_t alignment, size_t size); // for SIMD; free() frees it
 char *mem_strdup(const char *s);
@@ -27,5 +27,5 @@ struct arena {
 void *arena_alloc(struct arena *a, size_t size); // uninitialised, aligned to 16 bytes
 void *arena_zalloc(struct arena *a, size_t size);
 char *arena_text(struct arena *a, const char *text, size_t length); // copies and terminates
-void arena_free(struct arena *a);  // leaves {0}
+void arena_free(struct arena *a);                                   // leaves {0}
 void arena_reset(struct arena *a); // forgets the content, keeps the newest block for reuse

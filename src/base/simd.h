@@ -11,6 +11,15 @@
 typedef float v8f __attribute__((vector_size(32)));
 typedef int32_t v8i __attribute__((vector_size(32))); // comparisons give -1 or 0 in each lane
 
+typedef double v4d __attribute__((vector_size(32))); // four doubles
+typedef int64_t v4l __attribute__((vector_size(32)));
+typedef float v4f __attribute__((vector_size(16)));
+
+static inline v4d v4_set(double a)
+{
+    return (v4d){a, a, a, a};
+}
+
 static inline v8f v8_set(float a)
 {
     return (v8f){a, a, a, a, a, a, a, a};

@@ -113,10 +113,8 @@ struct box {
     struct vec3 min, max;
 };
 
-#define BOX_EMPTY                                                                                  \
-    ((struct box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}})
-#define BOX_ALL                                                                                    \
-    ((struct box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}})
+#define BOX_EMPTY ((struct box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}})
+#define BOX_ALL   ((struct box){{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}})
 
 static inline bool box_is_empty(struct box b)
 {

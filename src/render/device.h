@@ -16,25 +16,29 @@ struct surface_image {
 
 // One solid interval of a ray.
 struct span {
-    float enter, leave;                // depth - rays.reference in mm
-    uint32_t enter_leaf, enter_face;   // enter_face is SURFACE_CAP when solid at the near plane
-    uint32_t leave_leaf, leave_face;   // leave_leaf is SURFACE_NONE when solid at the far plane
+    float enter, leave;              // depth - rays.reference in mm
+    uint32_t enter_leaf, enter_face; // enter_face is SURFACE_CAP when solid at the near plane
+    uint32_t leave_leaf, leave_face; // leave_leaf is SURFACE_NONE when solid at the far plane
 };
 
-// Intervals of a rectangle of pixels, in the order of depth for each ray: pixel i = (y - y0) * (x1 - x0) +
-// (x - x0) has spans[first[i] .. first[i + 1]). Valid during the call only.
+// Intervals of a rectangle of pixels, in the order of depth for each ray: pixel i = (y - y0) * (x1
+// - x0) + (x - x0) has spans[first[i] .. first[i + 1]). Valid during the call only.
 struct span_block {
     int x0, y0, x1, y1;
     const uint32_t *first;
     const struct span *spans;
 };
 
-enum walk { WALK_AUTO, WALK_HASH, WALK_ARRAY }; // ARRAY: whole expression per interval, for the bench
+enum walk {
+    WALK_AUTO,
+    WALK_HASH,
+    WALK_ARRAY
+}; // ARRAY: whole expression per interval, for the bench
 
 struct render_settings {
-    double epsilon;     // intervals thinner than this across their faces do not exist, mm
-    uint32_t threads;   // 0: one per processor
-    size_t memory;      // budget in bytes for a frame beyond model and outputs; 0: 256 MB
+    double epsilon;   // intervals thinner than this across their faces do not exist, mm
+    uint32_t threads; // 0: one per processor
+    size_t memory;    // budget in bytes for a frame beyond model and outputs; 0: 256 MB
     enum walk walk;
 };
 
@@ -56,8 +60,8 @@ void cpu_first_surface(struct cpu_device *d, const struct body *body, const stru
                        const struct render_settings *settings, struct surface_image *out,
                        struct render_stats *stats);
 
-// Calls `sink` for blocks that cover the picture, each pixel once, from several threads at once (worker
-// numbers below parallel_workers(threads)).
+// Calls `sink` for blocks that cover the picture, each pixel once, from several threads at once
+// (worker numbers below parallel_workers(threads)).
 void cpu_spans(struct cpu_device *d, const struct body *body, const struct rays *rays,
                const struct render_settings *settings,
                void (*sink)(void *context, uint32_t worker, const struct span_block *block),

@@ -10,7 +10,7 @@
 #include "render/device.h"
 
 enum {
-    TILE = 32, // pixels: leaves are gathered and their planes culled per tile
+    TILE = 64, // pixels: leaves are gathered and their planes culled per tile
     BLOCK = 8, // pixels: crossings are made for a block at a time
     BLOCK_PIXELS = BLOCK * BLOCK,
 };

@@ -224,7 +224,8 @@ void query_enter(struct query *q)
         array_reserve(&q->parts, &q->part_capacity, q->part_count + 1);
         q->parts[q->part_count++] = p;
     }
-    qsort(q->parts, q->part_count, sizeof *q->parts, by_near);
+    if (q->part_count)
+        qsort(q->parts, q->part_count, sizeof *q->parts, by_near);
 }
 
 // ---------------------------------------------------------------- rays of a block
@@ -589,7 +590,7 @@ static void leaf_alone(struct query *q, uint32_t index, struct rays_at *out)
         for (int y = 0; y < BLOCK; y++) {
             v8f z = out->key[y];
             close |= ((leave[y] - enter[y] <= band) & (leave[y] > enter[y])) |
-                     (v8_abs(enter[y] - z) <= near & (z < v8_set(NEVER))) | (enter[y] <= start);
+                     ((v8_abs(enter[y] - z) <= near) & (z < v8_set(NEVER))) | (enter[y] <= start);
             nearer_some |= enter[y] < z;
         }
     }

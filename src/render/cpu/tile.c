@@ -119,11 +119,6 @@ void tile_block(struct tile *t, int x, int y)
     }
 }
 
-static float limited(double v)
-{
-    return v > KEY_LIMIT ? KEY_LIMIT : v < -KEY_LIMIT ? -KEY_LIMIT : (float)v;
-}
-
 // The rays of the tile in the coordinates of one leaf.
 struct local_rays {
     struct vec3 eye, centre, direction, step_x, step_y;
@@ -145,28 +140,45 @@ static struct local_rays local_rays(const struct tile *t, const struct leaf *lea
     return r;
 }
 
+// Four keys as floats that stay finite in products with pixel offsets.
+INLINE void put(float *out, v4d v)
+{
+    for (int i = 0; i < 4; i++) {
+        float f = (float)v[i];
+        f = f > KEY_LIMIT ? KEY_LIMIT : f;
+        out[i] = f < -KEY_LIMIT ? -KEY_LIMIT : f;
+    }
+}
+
 // Key planes of all faces of a convex leaf: scratch 0..2 = a, b, c; scratch 3 below 0: front. All
 // in double until the constant term is relative to the centre of the tile.
 static void make_planes(struct tile *t, const struct planes *p, const struct local_rays *r,
                         bool orthographic)
 {
-    float *restrict a = t->scratch[0], *restrict b = t->scratch[1];
-    float *restrict c = t->scratch[2], *restrict front = t->scratch[3];
-    for (uint32_t i = 0; i < p->padded; i++) {
-        double nx = p->nx[i], ny = p->ny[i], nz = p->nz[i], d = p->d[i];
-        double num = d - (nx * r->centre.x + ny * r->centre.y + nz * r->centre.z);
-        double den = orthographic
-                         ? nx * r->direction.x + ny * r->direction.y + nz * r->direction.z
-                         : (d - (nx * r->eye.x + ny * r->eye.y + nz * r->eye.z)) * r->scale;
-        // A plane seen exactly edge-on: a front plane far in front when the ray is inside of it,
-        // far behind when it is outside. The eye exactly on a plane: likewise, as a back plane.
-        double tiny = orthographic ? -1e-25 : 1e-25;
-        den = den > -1e-25 && den < 1e-25 ? tiny : den;
-        double inv = 1 / den;
-        a[i] = limited(num * inv);
-        b[i] = limited(-(nx * r->step_x.x + ny * r->step_x.y + nz * r->step_x.z) * inv);
-        c[i] = limited(-(nx * r->step_y.x + ny * r->step_y.y + nz * r->step_y.z) * inv);
-        front[i] = den < 0 ? -1.0f : 1.0f;
+    v4d ex = v4_set(r->eye.x), ey = v4_set(r->eye.y), ez = v4_set(r->eye.z);
+    v4d mx = v4_set(r->centre.x), my = v4_set(r->centre.y), mz = v4_set(r->centre.z);
+    v4d dx = v4_set(r->direction.x), dy = v4_set(r->direction.y), dz = v4_set(r->direction.z);
+    v4d xx = v4_set(r->step_x.x), xy = v4_set(r->step_x.y), xz = v4_set(r->step_x.z);
+    v4d yx = v4_set(r->step_y.x), yy = v4_set(r->step_y.y), yz = v4_set(r->step_y.z);
+    // A plane seen exactly edge-on: a front plane far in front when the ray is inside of it, far
+    // behind when it is outside. The eye exactly on a plane: likewise, as a back plane.
+    v4d tiny = v4_set(orthographic ? -1e-25 : 1e-25), scale = v4_set(r->scale);
+    for (uint32_t i = 0; i < p->padded; i += 4) {
+        v4d nx, ny, nz, d;
+        memcpy(&nx, p->nx + i, sizeof nx);
+        memcpy(&ny, p->ny + i, sizeof ny);
+        memcpy(&nz, p->nz + i, sizeof nz);
+        memcpy(&d, p->d + i, sizeof d);
+        v4d num = d - (nx * mx + ny * my + nz * mz);
+        v4d den = orthographic ? nx * dx + ny * dy + nz * dz
+                               : (d - (nx * ex + ny * ey + nz * ez)) * scale;
+        v4l edge_on = (den > v4_set(-1e-25)) & (den < v4_set(1e-25));
+        den = (v4d)(((v4l)tiny & edge_on) | ((v4l)den & ~edge_on));
+        v4d inv = v4_set(1) / den;
+        put(t->scratch[0] + i, num * inv);
+        put(t->scratch[1] + i, -(nx * xx + ny * xy + nz * xz) * inv);
+        put(t->scratch[2] + i, -(nx * yx + ny * yy + nz * yz) * inv);
+        put(t->scratch[3] + i, den);
     }
 }
 
@@ -217,38 +229,62 @@ INLINE uint32_t largest_at(const struct plane_source *s, float x, float y)
     return at;
 }
 
-// Copies to `out` the planes of the source that plane q does not hide: q hides p when its key is
-// larger in the whole square of half-width h around (x, y), with a margin for rounding. `out` may
-// be the source.
+// Plane q hides p when its key is larger in the whole square of half-width h around (x, y), with a
+// margin for rounding.
+struct hidden_by {
+    float a, b, c, x, y, h, sign, centre, slack;
+};
+
+INLINE struct hidden_by hidden_by(const struct plane_source *s, uint32_t q, float x, float y,
+                                  float h)
+{
+    struct hidden_by k = {.a = s->a[q], .b = s->b[q], .c = s->c[q], .x = x, .y = y, .h = h};
+    k.sign = s->sign;
+    k.centre = (k.a + k.b * x) + k.c * y;
+    k.slack = -4e-7f * (fabsf(k.centre) + fabsf(k.a) + (fabsf(k.b) + fabsf(k.c)) * h);
+    return k;
+}
+
+// Bit i: plane i of the eight that begin at `at` is on the source's side and not hidden.
+INLINE int shown(const struct hidden_by *k, const struct plane_source *s, uint32_t at)
+{
+    v8f a = load(s->a + at), b = load(s->b + at), c = load(s->c + at);
+    v8f centre = (a + b * k->x) + c * k->y;
+    v8f ahead = k->sign * (centre - k->centre) + (v8_abs(b - k->b) + v8_abs(c - k->c)) * k->h +
+                4e-7f * (v8_abs(centre) + v8_abs(a) + (v8_abs(b) + v8_abs(c)) * k->h);
+    v8i keep = ahead > v8_set(k->slack);
+    if (s->side)
+        keep &= load(s->side + at) * s->sign < v8_set(0);
+    int bits = v8_bits(keep);
+    return s->n - at < 8 ? bits & ((1 << (s->n - at)) - 1) : bits;
+}
+
+// The numbers of the planes of the source that q does not hide, at `out`; returns how many.
+INLINE uint32_t list_numbers(uint32_t *out, const struct plane_source *s, uint32_t q, float x,
+                             float y, float h)
+{
+    struct hidden_by k = hidden_by(s, q, x, y, h);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < s->n; i += 8)
+        for (int bits = shown(&k, s, i); bits; bits &= bits - 1)
+            out[kept++] = s->id + i + (uint32_t)__builtin_ctz((unsigned)bits);
+    return kept;
+}
+
+// Copies to `out` the planes of the source that q does not hide. `out` may be the source.
 INLINE void list_take(struct plane_list *out, const struct plane_source *s, const uint32_t *ids,
                       uint32_t q, float x, float y, float h)
 {
-    v8f sign = v8_set(s->sign), rounding = v8_set(4e-7f);
-    v8f qa = v8_set(s->a[q]), qb = v8_set(s->b[q]), qc = v8_set(s->c[q]);
-    v8f q_centre = (qa + qb * x) + qc * y;
-    v8f slack = rounding * (v8_abs(q_centre) + v8_abs(qa) + (v8_abs(qb) + v8_abs(qc)) * h);
-    v8i lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    struct hidden_by k = hidden_by(s, q, x, y, h);
     uint32_t kept = 0;
-    for (uint32_t i = 0; i < s->n; i += 8) {
-        v8f a = load(s->a + i), b = load(s->b + i), c = load(s->c + i);
-        v8f centre = (a + b * x) + c * y;
-        v8f ahead = sign * (centre - q_centre) + (v8_abs(b - qb) + v8_abs(c - qc)) * h +
-                    rounding * (v8_abs(centre) + v8_abs(a) + (v8_abs(b) + v8_abs(c)) * h);
-        v8i keep = (ahead > -slack) & (lane < v8_seti((int32_t)s->n));
-        if (s->side)
-            keep &= load(s->side + i) * sign < v8_set(0);
-        a *= sign;
-        b *= sign;
-        c *= sign;
-        for (int bits = v8_bits(keep); bits; bits &= bits - 1) {
-            int k = __builtin_ctz((unsigned)bits);
-            out->a[kept] = a[k];
-            out->b[kept] = b[k];
-            out->c[kept] = c[k];
-            out->id[kept++] = ids ? ids[i + (uint32_t)k] : s->id + i + (uint32_t)k;
+    for (uint32_t i = 0; i < s->n; i += 8)
+        for (int bits = shown(&k, s, i); bits; bits &= bits - 1) {
+            uint32_t p = i + (uint32_t)__builtin_ctz((unsigned)bits);
+            out->a[kept] = s->sign * s->a[p];
+            out->b[kept] = s->sign * s->b[p];
+            out->c[kept] = s->sign * s->c[p];
+            out->id[kept++] = ids ? ids[p] : s->id + p;
         }
-        lane += v8_seti(8);
-    }
     out->n = kept;
     list_pad(out);
 }
@@ -268,9 +304,10 @@ INLINE void list_split(struct plane_list *out, const struct plane_source *s)
     list_pad(out);
 }
 
-// The planes of the source that may have the largest key somewhere in the square.
+// The planes of the source that may have the largest key somewhere in the square; not all of the
+// others are dropped once `enough` or fewer are left.
 INLINE void cull_planes(struct plane_list *out, const struct plane_source *s, float x, float y,
-                        float h)
+                        float h, uint32_t enough)
 {
     const float cx[5] = {0, -1, 1, -1, 1}, cy[5] = {0, -1, -1, 1, 1};
     uint32_t q = largest_at(s, x, y);
@@ -279,7 +316,7 @@ INLINE void cull_planes(struct plane_list *out, const struct plane_source *s, fl
         return;
     list_take(out, s, NULL, q, x, y, h);
     struct plane_source rest = {.a = out->a, .b = out->b, .c = out->c, .sign = 1};
-    for (int k = 1; k < 5 && out->n > 2; k++) {
+    for (int k = 1; k < 5 && out->n > enough; k++) {
         rest.n = out->n;
         q = largest_at(&rest, x + h * cx[k], y + h * cy[k]);
         list_take(out, &rest, out->id, q, x, y, h);
@@ -303,7 +340,8 @@ INLINE v8f steepness(const struct tile *t, v8f a, v8f b, v8f c)
 
 // Culls the planes of one side over the tile and appends them to the pool. Returns the bound of the
 // key: the entry is nowhere below it (front), the exit nowhere above it (back).
-static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t *count)
+static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t enough,
+                       uint32_t *count)
 {
     struct plane_pool *pool = &t->planes;
     struct plane_source source = {t->scratch[0], t->scratch[1], t->scratch[2], t->scratch[3], 0,
@@ -314,7 +352,7 @@ static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t *co
     if (planes <= 8)
         list_split(&list, &source);
     else
-        cull_planes(&list, &source, 0, 0, 0.5f * TILE);
+        cull_planes(&list, &source, 0, 0, 0.5f * TILE, enough);
     for (uint32_t i = 0; i < list.n; i += 8) {
         v8f a = load(list.a + i), b = load(list.b + i), c = load(list.c + i);
         bound = v8_max(bound, a - (v8_abs(b) + v8_abs(c)) * h);
@@ -357,8 +395,12 @@ void tile_prepare(struct tile *t, struct tile_leaf *l)
     make_planes(t, p, &r, f->rays->orthographic);
 
     l->plane = t->planes.used;
-    float near = keep_side(t, p->count, 1, &l->front);
-    float far = keep_side(t, p->count, -1, &l->back);
+    // the corners of the tile only help where the leaf reaches beyond them
+    bool beyond = l->x0 < (float)t->x0 && l->x1 > (float)t->x1;
+    beyond |= l->y0 < (float)t->y0 && l->y1 > (float)t->y1;
+    uint32_t enough = beyond ? 16 : UINT32_MAX;
+    float near = keep_side(t, p->count, 1, enough, &l->front);
+    float far = keep_side(t, p->count, -1, enough, &l->back);
     l->near = near > l->near ? near : l->near;
     l->far = far < l->far ? far : l->far;
     l->state = l->near < l->far ? LEAF_READY : LEAF_ABSENT;
@@ -395,10 +437,7 @@ static uint32_t block_side(struct tile *t, uint32_t first, uint32_t n, float sig
     const struct plane_pool *pool = &t->planes;
     struct plane_source source = {
         pool->a + first, pool->b + first, pool->c + first, NULL, first, n, sign};
-    struct plane_list list = t->list;
-    cull_planes(&list, &source, mx, my, 0.5f * BLOCK);
-    memcpy(index, list.id, list.n * sizeof *index);
-    return list.n;
+    return list_numbers(index, &source, largest_at(&source, mx, my), mx, my, 0.5f * BLOCK);
 }
 
 // Does every ray of the block miss? Yes when one front plane is beyond one back plane in all of it,
