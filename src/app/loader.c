@@ -1,6 +1,7 @@
 // loader.c - reads the file, builds its model and follows both, on a thread of its own.
 #include "app/loader.h"
 
+#include "app/report.h"
 #include "app/watch.h"
 #include "base/clock.h"
 #include "base/file.h"
@@ -85,59 +86,10 @@ static void publish(struct loader *l, struct loaded *loaded, char *message, bool
     l->options.woken(l->options.context);
 }
 
-static size_t put_message(char *text, size_t used, size_t size, const struct message *m)
-{
-    const char *source = m->source ? m->source : "";
-    int n = snprintf(text + used, size - used, "%s%s%s%s", used ? "\n" : "", m->text,
-                     *source ? "\n" : "", source);
-    return n > 0 && (size_t)n < size - used ? used + (size_t)n : size - 1;
-}
-
-// The first messages, errors before warnings, and how many more there are.
-static char *summary(const struct messages *m)
-{
-    enum { SHOWN = 4, SIZE = 8192 };
-    char *text = mem_zalloc(SIZE);
-    size_t used = 0;
-    uint32_t shown = 0;
-    for (int warnings = 0; warnings < 2; warnings++)
-        for (uint32_t i = 0; i < m->count && shown < SHOWN; i++)
-            if ((m->items[i].level == MESSAGE_WARNING) == warnings) {
-                used = put_message(text, used, SIZE, &m->items[i]);
-                shown++;
-            }
-    if (m->warnings + m->errors > shown)
-        snprintf(text + used, SIZE - used, "\n(and %u more)", m->warnings + m->errors - shown);
-    return text;
-}
-
-// openscad's warnings and echoes, one message each.
-static void relay_log(const char *log, struct messages *m)
-{
-    static const struct {
-        const char *prefix;
-        enum message_level level;
-    } kinds[] = {{"ERROR: ", MESSAGE_ERROR},
-                 {"WARNING: ", MESSAGE_WARNING},
-                 {"DEPRECATED: ", MESSAGE_WARNING}};
-    while (*log) {
-        size_t length = strcspn(log, "\n");
-        if (strncmp(log, "ECHO: ", 6) == 0)
-            fprintf(stderr, "%.*s\n", (int)length, log);
-        for (size_t k = 0; k < array_count(kinds); k++) {
-            size_t skip = strlen(kinds[k].prefix);
-            if (strncmp(log, kinds[k].prefix, skip) == 0)
-                messages_add(m, kinds[k].level, (struct place){0}, "%.*s", (int)(length - skip),
-                             log + skip);
-        }
-        log += length + (log[length] == '\n');
-    }
-}
-
 static void fail(struct loader *l, struct messages *m)
 {
     messages_print(m, stderr);
-    publish(l, NULL, summary(m), true, l->job != NULL);
+    publish(l, NULL, report_summary(m), true, l->job != NULL);
 }
 
 // OpenSCAD's bounds also count what intersections cut away.
@@ -170,7 +122,7 @@ static void build(struct loader *l, const struct csg_tree *tree, struct messages
     s->loader = l;
     atomic_init(&s->references, 1);
     messages_print(m, stderr);
-    publish(l, s, summary(m), false, l->job != NULL);
+    publish(l, s, report_summary(m), false, l->job != NULL);
 }
 
 // Takes `text` over. False: the text does not parse, and *m says why.
@@ -257,7 +209,7 @@ static void on_exported(void *context, struct scad_result *result, const struct 
     if (err)
         messages_add(&m, MESSAGE_ERROR, (struct place){0}, "%s", err->text);
     else
-        relay_log(result->log, &m);
+        report_log(result->log, &m);
     if (l->watch)
         follow_files(l, result, !err);
     if (!result->text)
