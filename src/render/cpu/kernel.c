@@ -65,13 +65,14 @@ static void find_faces(struct tile *t, const struct rays_at *s, int32_t owner, v
     }
     if (b && !b->mesh) { // the plane whose key is the ray's
         const struct plane_pool *pool = &t->planes;
+        const v8f steps = BLOCK_STEPS;
         uint32_t from = leaving ? b->front : 0, to = leaving ? b->front + b->back : b->front;
         for (uint32_t k = from; k < to; k++) {
             uint32_t p = t->index[b->planes + k];
-            v8f row = pool->a[p] + pool->b[p] * t->px;
+            v8f row = t->key[b->planes + k] + pool->b[p] * steps, c = pool->c[p] * steps;
             v8i number = v8_seti((int32_t)pool->face[p]);
             for (int y = 0; y < BLOCK; y++) {
-                v8i same = mine[y] & (row + pool->c[p] * t->py[y] == s->key[y]);
+                v8i same = mine[y] & (row + c[y] == s->key[y]);
                 face[y] = v8_selecti(same, number, face[y]);
                 mine[y] &= ~same;
             }

@@ -150,11 +150,16 @@ static void scan(struct tile *t, const struct mesh_view *v, const struct grid_po
             float key = (float)(k->a + k->b * (t->bx + x - t->cx) + k->c * (t->by + y - t->cy));
             key = key < k->low ? k->low : key > k->high ? k->high : key;
             struct mesh_pool *m = &t->mesh;
+            float steep = k->steep;
+            if (!v->orthographic) // of this ray
+                steep *=
+                    fabsf(1 - (float)((k->b * (t->bx + x - t->cx) + k->c * (t->by + y - t->cy)) /
+                                      (t->frame->t0 - k->a)));
             array_reserve(&m->crossings, &m->crossing_capacity, m->crossing_count + 1);
             // y runs down in the picture: counter-clockwise from outside is clockwise there
             m->crossings[m->crossing_count++] =
                 (struct mesh_crossing){.key = key,
-                                       .steep = k->steep,
+                                       .steep = steep,
                                        .face = k->face,
                                        .sign = (int16_t)-facing,
                                        .ray = (uint16_t)(y * BLOCK + x)};

@@ -256,7 +256,7 @@ static bool later(const struct query *q, int32_t owner, int32_t than)
 
 static float steep_of(struct query *q, int32_t owner, int ray, float key)
 {
-    float steep = 0;
+    float steep = 1; // of the plane where the ray begins
     if (owner >= 0)
         tile_face(q->t, &q->t->leaves[owner >> 1], ray, owner & 1, key, &steep);
     return steep;

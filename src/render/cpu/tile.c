@@ -9,15 +9,16 @@
 
 // Keys beyond this are "never"; keeps products with pixel offsets finite.
 #define KEY_LIMIT 1e30f
+#define REACH     (0.5f * TILE) // pixels from the centre of the tile
 #define INLINE    static inline __attribute__((always_inline))
 
 void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t memory)
 {
     *t = (struct tile){.frame = f, .worker = worker};
     uint32_t most = f->planes_most + 8;
-    size_t planes = memory / 8 / 20, slots = memory / 4 / sizeof(struct block_leaf);
+    size_t planes = memory / 8 / 44, slots = memory / 4 / sizeof(struct block_leaf);
     planes = planes < 4 * (size_t)most ? 4 * (size_t)most : planes;
-    planes = planes > 1 << 18 ? (1 << 18 > 4 * most ? 1 << 18 : 4 * most) : planes;
+    planes = planes > 1 << 16 ? (1 << 16 > 4 * most ? 1 << 16 : 4 * most) : planes;
     slots = slots < 16 ? 16 : slots > 2048 ? 2048 : slots;
     t->planes.size = (uint32_t)planes;
     t->planes.a = mem_zalloc((planes + 8) * 4); // vectors may read past the last one
@@ -25,17 +26,20 @@ void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t me
     t->planes.c = mem_zalloc((planes + 8) * 4);
     t->planes.steep = mem_zalloc((planes + 8) * 4);
     t->planes.face = mem_aligned(32, planes * 4);
+    t->planes.exact = mem_alloc(planes * sizeof *t->planes.exact);
+    t->exact = mem_alloc(most * sizeof *t->exact);
     t->slot_size = (uint32_t)slots;
     t->slots = mem_aligned(64, slots * sizeof *t->slots);
     t->index_size = most * 2 > 1 << 16 ? most * 2 : 1 << 16;
     t->index = mem_alloc(t->index_size * sizeof *t->index);
+    t->key = mem_alloc(t->index_size * sizeof *t->key);
     for (int i = 0; i < 4; i++)
         t->scratch[i] = mem_aligned(32, most * sizeof(float));
     t->list.a = mem_aligned(32, most * sizeof(float));
     t->list.b = mem_aligned(32, most * sizeof(float));
     t->list.c = mem_aligned(32, most * sizeof(float));
     t->list.id = mem_aligned(32, most * sizeof *t->list.id);
-    t->bytes = planes * 20 + slots * sizeof *t->slots + t->index_size * 4 + most * 32;
+    t->bytes = planes * 44 + slots * sizeof *t->slots + t->index_size * 8 + most * 56;
 }
 
 void tile_free(struct tile *t)
@@ -45,8 +49,11 @@ void tile_free(struct tile *t)
     free(t->planes.c);
     free(t->planes.steep);
     free(t->planes.face);
+    free(t->planes.exact);
+    free(t->exact);
     free(t->slots);
     free(t->index);
+    free(t->key);
     for (int i = 0; i < 4; i++)
         free(t->scratch[i]);
     free(t->list.a);
@@ -113,10 +120,8 @@ void tile_block(struct tile *t, int x, int y)
     t->index_used = 0;
     t->mesh.interval_count = 0;
     t->limit = FLT_MAX;
-    for (int i = 0; i < BLOCK; i++) {
-        t->px[i] = (float)(x + i - t->cx);
-        t->py[i] = (float)(y + i - t->cy);
-    }
+    t->mx = (float)(x + 0.5 * (BLOCK - 1) - t->cx);
+    t->my = (float)(y + 0.5 * (BLOCK - 1) - t->cy);
 }
 
 // The rays of the tile in the coordinates of one leaf.
@@ -140,14 +145,18 @@ static struct local_rays local_rays(const struct tile *t, const struct leaf *lea
     return r;
 }
 
-// Four keys as floats that stay finite in products with pixel offsets.
+// A key as a float that stays finite in products with pixel offsets.
+INLINE float limited(double key)
+{
+    float f = (float)key;
+    f = f > KEY_LIMIT ? KEY_LIMIT : f;
+    return f < -KEY_LIMIT ? -KEY_LIMIT : f;
+}
+
 INLINE void put(float *out, v4d v)
 {
-    for (int i = 0; i < 4; i++) {
-        float f = (float)v[i];
-        f = f > KEY_LIMIT ? KEY_LIMIT : f;
-        out[i] = f < -KEY_LIMIT ? -KEY_LIMIT : f;
-    }
+    for (int i = 0; i < 4; i++)
+        out[i] = limited(v[i]);
 }
 
 // Key planes of all faces of a convex leaf: scratch 0..2 = a, b, c; scratch 3 below 0: front. All
@@ -160,9 +169,12 @@ static void make_planes(struct tile *t, const struct planes *p, const struct loc
     v4d dx = v4_set(r->direction.x), dy = v4_set(r->direction.y), dz = v4_set(r->direction.z);
     v4d xx = v4_set(r->step_x.x), xy = v4_set(r->step_x.y), xz = v4_set(r->step_x.z);
     v4d yx = v4_set(r->step_y.x), yy = v4_set(r->step_y.y), yz = v4_set(r->step_y.z);
-    // A plane seen exactly edge-on: a front plane far in front when the ray is inside of it, far
-    // behind when it is outside. The eye exactly on a plane: likewise, as a back plane.
+    // A plane seen edge-on, or with the eye on it, is crossed far in front by rays inside of it and
+    // never by rays outside. A ray in the plane itself is taken as moved down by a millionth of a
+    // pixel (and left by less): mesh.c decides the same way, so neighbouring solids agree.
     v4d tiny = v4_set(orthographic ? -1e-25 : 1e-25), scale = v4_set(r->scale);
+    v4d least = v4_set(orthographic ? 1e-13 * vec3_length(r->direction)
+                                    : 1e-13 * vec3_length(r->eye) * r->scale);
     for (uint32_t i = 0; i < p->padded; i += 4) {
         v4d nx, ny, nz, d;
         memcpy(&nx, p->nx + i, sizeof nx);
@@ -172,13 +184,19 @@ static void make_planes(struct tile *t, const struct planes *p, const struct loc
         v4d num = d - (nx * mx + ny * my + nz * mz);
         v4d den = orthographic ? nx * dx + ny * dy + nz * dz
                                : (d - (nx * ex + ny * ey + nz * ez)) * scale;
-        v4l edge_on = (den > v4_set(-1e-25)) & (den < v4_set(1e-25));
+        v4d slope_x = nx * xx + ny * xy + nz * xz, slope_y = nx * yx + ny * yy + nz * yz;
+        v4l edge_on = (den > -least) & (den < least);
         den = (v4d)(((v4l)tiny & edge_on) | ((v4l)den & ~edge_on));
+        v4d moved = num - slope_y * 1e-6 + slope_x * 1e-9;
+        num = (v4d)(((v4l)moved & edge_on) | ((v4l)num & ~edge_on));
         v4d inv = v4_set(1) / den;
-        put(t->scratch[0] + i, num * inv);
-        put(t->scratch[1] + i, -(nx * xx + ny * xy + nz * xz) * inv);
-        put(t->scratch[2] + i, -(nx * yx + ny * yy + nz * yz) * inv);
+        v4d a = num * inv, b = -slope_x * inv, c = -slope_y * inv;
+        put(t->scratch[0] + i, a);
+        put(t->scratch[1] + i, b);
+        put(t->scratch[2] + i, c);
         put(t->scratch[3] + i, den);
+        for (int k = 0; k < 4; k++)
+            t->exact[i + (uint32_t)k] = (struct plane_exact){a[k], b[k], c[k]};
     }
 }
 
@@ -241,7 +259,7 @@ INLINE struct hidden_by hidden_by(const struct plane_source *s, uint32_t q, floa
     struct hidden_by k = {.a = s->a[q], .b = s->b[q], .c = s->c[q], .x = x, .y = y, .h = h};
     k.sign = s->sign;
     k.centre = (k.a + k.b * x) + k.c * y;
-    k.slack = -4e-7f * (fabsf(k.centre) + fabsf(k.a) + (fabsf(k.b) + fabsf(k.c)) * h);
+    k.slack = -4e-7f * (fabsf(k.centre) + fabsf(k.a) + (fabsf(k.b) + fabsf(k.c)) * REACH);
     return k;
 }
 
@@ -251,8 +269,8 @@ INLINE int shown(const struct hidden_by *k, const struct plane_source *s, uint32
     v8f a = load(s->a + at), b = load(s->b + at), c = load(s->c + at);
     v8f centre = (a + b * k->x) + c * k->y;
     v8f ahead = k->sign * (centre - k->centre) + (v8_abs(b - k->b) + v8_abs(c - k->c)) * k->h +
-                4e-7f * (v8_abs(centre) + v8_abs(a) + (v8_abs(b) + v8_abs(c)) * k->h);
-    v8i keep = ahead > v8_set(k->slack);
+                4e-7f * (v8_abs(centre) + v8_abs(a) + (v8_abs(b) + v8_abs(c)) * REACH);
+    v8i keep = ahead >= v8_set(k->slack); // equal where all numbers are 0, as for q itself
     if (s->side)
         keep &= load(s->side + at) * s->sign < v8_set(0);
     int bits = v8_bits(keep);
@@ -366,6 +384,8 @@ static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t eno
         memcpy(pool->steep + pool->used + i, &steep, sizeof steep);
     }
     memcpy(pool->face + pool->used, list.id, list.n * sizeof *pool->face);
+    for (uint32_t i = 0; i < list.n; i++)
+        pool->exact[pool->used + i] = t->exact[list.id[i]];
     pool->used += list.n;
     *count = list.n;
     return list.n ? sign * v8_highest(bound) : sign > 0 ? t->frame->start : t->frame->end;
@@ -406,27 +426,41 @@ void tile_prepare(struct tile *t, struct tile_leaf *l)
     l->state = l->near < l->far ? LEAF_READY : LEAF_ABSENT;
 }
 
-// Smallest steepness of the planes that remain: bounds how far apart on the ray two faces can be
-// that are within epsilon of each other.
+// How the steepness of a plane at pixel (x, y) differs from that at the centre of the tile: a
+// factor that is an affine function of the pixel, 1 in orthographic views.
+static float steep_factor(const struct tile *t, uint32_t plane, float x, float y)
+{
+    const struct plane_pool *pool = &t->planes;
+    return t->frame->rays->orthographic ? 1
+                                        : 1 - (pool->b[plane] * x + pool->c[plane] * y) /
+                                                  ((float)t->frame->t0 - pool->a[plane]);
+}
+
+// Smallest steepness in the block of the planes that remain: bounds how far apart on the ray two
+// faces can be that are within epsilon of each other.
 static float find_band(const struct tile *t, const struct block_leaf *out)
 {
     const struct frame *f = t->frame;
-    float steep = FLT_MAX;
-    for (uint32_t i = 0; i < out->front + out->back; i++)
-        steep = fminf(steep, t->planes.steep[t->index[out->planes + i]]);
-    // d key / d t = (t0 / t)^2 = (1 - key / t0)^2 is largest at the near end
-    float growth = 1;
-    if (!f->rays->orthographic) {
-        growth = 1 - out->near / (float)f->t0;
-        growth *= growth;
+    const struct plane_pool *pool = &t->planes;
+    float least = FLT_MAX;
+    for (uint32_t i = 0; i < out->front + out->back; i++) {
+        uint32_t p = t->index[out->planes + i];
+        float steep = pool->steep[p];
+        if (!f->rays->orthographic) {
+            float range = (fabsf(pool->b[p]) + fabsf(pool->c[p])) * (0.5f * BLOCK) /
+                          fabsf((float)f->t0 - pool->a[p]);
+            steep *= fabsf(steep_factor(t, p, t->mx, t->my)) - range;
+        }
+        least = steep < least ? steep : least;
     }
-    return 1.01f * f->epsilon * growth / fmaxf(steep, STEEP_LEAST);
+    // d key / d t = (t0 / t)^2 = (1 - key / t0)^2 is largest at the near end
+    float growth = f->rays->orthographic ? 1 : 1 - out->near / (float)f->t0;
+    return 1.01f * f->epsilon * growth * growth / (least > STEEP_LEAST ? least : STEEP_LEAST);
 }
 
 // Numbers of the planes of one side that may count in the current block, at `index`; returns how
 // many.
-static uint32_t block_side(struct tile *t, uint32_t first, uint32_t n, float sign, float mx,
-                           float my, uint32_t *index)
+static uint32_t block_side(struct tile *t, uint32_t first, uint32_t n, float sign, uint32_t *index)
 {
     enum { FEW = 4 }; // culling would cost more than it saves
     if (n <= FEW) {
@@ -437,28 +471,25 @@ static uint32_t block_side(struct tile *t, uint32_t first, uint32_t n, float sig
     const struct plane_pool *pool = &t->planes;
     struct plane_source source = {
         pool->a + first, pool->b + first, pool->c + first, NULL, first, n, sign};
-    return list_numbers(index, &source, largest_at(&source, mx, my), mx, my, 0.5f * BLOCK);
+    return list_numbers(index, &source, largest_at(&source, t->mx, t->my), t->mx, t->my,
+                        0.5f * BLOCK);
 }
 
 // Does every ray of the block miss? Yes when one front plane is beyond one back plane in all of it,
 // or beyond the limit.
-static bool block_misses(const struct tile *t, const uint32_t *front, uint32_t fronts,
-                         const uint32_t *back, uint32_t backs, float mx, float my)
+static bool block_misses(const struct tile *t, const uint32_t *index, const float *key,
+                         uint32_t fronts, uint32_t backs)
 {
     enum { PAIRS = 36 }; // beyond, looking costs more than the crossings
     const struct plane_pool *pool = &t->planes;
     const float h = 0.5f * BLOCK;
     for (uint32_t i = 0; i < fronts; i++) {
-        float a = pool->a[front[i]], b = pool->b[front[i]], c = pool->c[front[i]];
-        float key = (a + b * mx) + c * my;
-        if (key - (fabsf(b) + fabsf(c)) * h > t->limit)
+        float b = pool->b[index[i]], c = pool->c[index[i]];
+        if (key[i] - (fabsf(b) + fabsf(c)) * h > t->limit)
             return true;
-        for (uint32_t k = 0; k < backs && fronts * backs <= PAIRS; k++) {
-            uint32_t q = back[k];
-            float other = (pool->a[q] + pool->b[q] * mx) + pool->c[q] * my;
-            if (key - other > (fabsf(b - pool->b[q]) + fabsf(c - pool->c[q])) * h)
+        for (uint32_t k = fronts; k < fronts + backs && fronts * backs <= PAIRS; k++)
+            if (key[i] - key[k] > (fabsf(b - pool->b[index[k]]) + fabsf(c - pool->c[index[k]])) * h)
                 return true;
-        }
     }
     return false;
 }
@@ -467,31 +498,32 @@ static const struct block_leaf *convex_block(struct tile *t, struct tile_leaf *l
                                              struct block_leaf *out)
 {
     const struct plane_pool *pool = &t->planes;
-    float mx = (t->px[3] + t->px[4]) * 0.5f, my = (t->py[3] + t->py[4]) * 0.5f;
     uint32_t *index = t->index + t->index_used;
-    uint32_t front = block_side(t, l->plane, l->front, 1, mx, my, index);
-    uint32_t back = block_side(t, l->plane + l->front, l->back, -1, mx, my, index + front);
-    if (block_misses(t, index, front, index + front, back, mx, my))
+    float *key = t->key + t->index_used;
+    uint32_t front = block_side(t, l->plane, l->front, 1, index);
+    uint32_t back = block_side(t, l->plane + l->front, l->back, -1, index + front);
+    for (uint32_t i = 0; i < front + back; i++) {
+        const struct plane_exact *e = &pool->exact[index[i]];
+        key[i] = limited(e->a + e->b * t->mx + e->c * t->my);
+    }
+    if (block_misses(t, index, key, front, back))
         return NULL;
 
+    const v8f steps = BLOCK_STEPS;
     v8f enter[BLOCK], leave[BLOCK];
     for (int y = 0; y < BLOCK; y++) {
         enter[y] = v8_set(t->frame->start);
         leave[y] = v8_set(t->frame->end);
     }
     for (uint32_t i = 0; i < front; i++) {
-        uint32_t p = index[i];
-        v8f row = pool->a[p] + pool->b[p] * t->px;
-        float c = pool->c[p];
+        v8f row = key[i] + pool->b[index[i]] * steps, c = pool->c[index[i]] * steps;
         for (int y = 0; y < BLOCK; y++)
-            enter[y] = v8_max(row + c * t->py[y], enter[y]);
+            enter[y] = v8_max(row + c[y], enter[y]);
     }
     for (uint32_t i = front; i < front + back; i++) {
-        uint32_t p = index[i];
-        v8f row = pool->a[p] + pool->b[p] * t->px;
-        float c = pool->c[p];
+        v8f row = key[i] + pool->b[index[i]] * steps, c = pool->c[index[i]] * steps;
         for (int y = 0; y < BLOCK; y++)
-            leave[y] = v8_min(row + c * t->py[y], leave[y]);
+            leave[y] = v8_min(row + c[y], leave[y]);
     }
     v8f near = v8_set(FLT_MAX), far = v8_set(-FLT_MAX);
     for (int y = 0; y < BLOCK; y++) {
@@ -552,23 +584,28 @@ uint32_t tile_face(struct tile *t, struct tile_leaf *l, int i, bool leaving, flo
     *steep = 1;
     if (!b || key <= t->frame->start)
         return SURFACE_CAP;
+    float nearest = FLT_MAX; // a key may have been taken over from a face within epsilon
+    uint32_t found = UINT32_MAX;
     if (b->mesh) {
+        const struct mesh_interval *m = t->mesh.intervals + b->interval;
         for (uint32_t k = b->first[i]; k < b->first[i + 1]; k++) {
-            const struct mesh_interval *m = &t->mesh.intervals[b->interval + k];
-            if ((leaving ? m->leave : m->enter) == key) {
-                *steep = leaving ? m->leave_steep : m->enter_steep;
-                return leaving ? m->leave_face : m->enter_face;
+            float away = fabsf((leaving ? m[k].leave : m[k].enter) - key);
+            if (away < nearest) {
+                nearest = away;
+                found = k;
             }
         }
-        return SURFACE_CAP;
+        if (found == UINT32_MAX)
+            return SURFACE_CAP;
+        *steep = leaving ? m[found].leave_steep : m[found].enter_steep;
+        return leaving ? m[found].leave_face : m[found].enter_face;
     }
     const struct plane_pool *pool = &t->planes;
     uint32_t from = leaving ? b->front : 0, to = leaving ? b->front + b->back : b->front;
-    float x = t->px[i % BLOCK], y = t->py[i / BLOCK], nearest = FLT_MAX;
-    uint32_t found = UINT32_MAX;
+    float x = BLOCK_STEPS[i % BLOCK], y = BLOCK_STEPS[i / BLOCK];
     for (uint32_t k = from; k < to; k++) {
         uint32_t p = t->index[b->planes + k];
-        float away = fabsf((pool->a[p] + pool->b[p] * x) + pool->c[p] * y - key);
+        float away = fabsf((t->key[b->planes + k] + pool->b[p] * x) + pool->c[p] * y - key);
         if (away < nearest) {
             nearest = away;
             found = p;
@@ -576,7 +613,7 @@ uint32_t tile_face(struct tile *t, struct tile_leaf *l, int i, bool leaving, flo
     }
     if (found == UINT32_MAX)
         return SURFACE_CAP;
-    *steep = pool->steep[found];
+    *steep = fabsf(pool->steep[found] * steep_factor(t, found, t->mx + x, t->my + y));
     return pool->face[found];
 }
 

@@ -49,8 +49,14 @@ struct tile_leaf {
 #define SLOT_ABSENT UINT32_MAX
 
 // Planes of tile leaves: key(x, y) = a + b x + c y, pixels counted from the centre of the tile.
+// Floats to find out which planes count, doubles for the constants of a block: on a face seen at a
+// grazing angle a tile is many metres deep.
+struct plane_exact {
+    double a, b, c;
+};
 struct plane_pool {
     float *a, *b, *c;
+    struct plane_exact *exact;
     float *steep; // |n . direction| at the centre of the tile: thickness across the face per depth
     uint32_t *face;
     uint32_t used, size;
@@ -113,18 +119,19 @@ struct tile {
 
     // the current block
     uint32_t serial;
-    float limit;     // crossings of leaves that begin beyond this key are not asked for
-    int bx, by;      // its first pixel
-    v8f px;          // pixel x of the 8 columns from the centre of the tile
-    float py[BLOCK]; // pixel y of the 8 rows
+    float limit;  // crossings of leaves that begin beyond this key are not asked for
+    int bx, by;   // its first pixel
+    float mx, my; // its middle, in pixels from the centre of the tile
     struct block_leaf *slots;
     uint32_t slot_count, slot_size;
     uint32_t *index; // plane numbers of block leaves
+    float *key;      // and their keys in the middle of the block
     uint32_t index_used, index_size;
 
     struct mesh_pool mesh;
-    float *scratch[4];      // planes_most floats each
-    struct plane_list list; // room for planes_most
+    float *scratch[4];         // planes_most floats each
+    struct plane_exact *exact; // planes_most
+    struct plane_list list;    // room for planes_most
 
     struct query *query;
     struct walk_lists *lists;
@@ -134,6 +141,9 @@ struct tile {
 
 // Planes of the leaf over the whole tile, which tightens near and far; may find it absent.
 void tile_prepare(struct tile *t, struct tile_leaf *l);
+
+// Pixels of a block from its middle: columns, and with [y] rows.
+#define BLOCK_STEPS ((v8f){-3.5f, -2.5f, -1.5f, -0.5f, 0.5f, 1.5f, 2.5f, 3.5f})
 
 void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t memory);
 void tile_free(struct tile *t);
