@@ -1,6 +1,8 @@
 // compare.c - does the device's answer for a pixel agree with the oracle?
 #include "compare.h"
 
+#include "base/hash.h"
+
 #include <string.h>
 
 const char *const fit_text[FITS_COUNT] = {
@@ -221,10 +223,21 @@ static bool end_continues(const struct comparison *c, const struct oracle_ray *o
     return fabs(depth - there.low) < c->tolerance / 2;
 }
 
+// Do two rays cross the same leaves, in any order?
+static bool same_leaves(const struct oracle_ray *a, const struct oracle_ray *b)
+{
+    uint64_t sum = 0;
+    if (a->crossing_count != b->crossing_count)
+        return false;
+    for (uint32_t i = 0; i < a->crossing_count; i++)
+        sum += hash_mix(a->crossings[i].leaf + 1) - hash_mix(b->crossings[i].leaf + 1);
+    return sum == 0;
+}
+
 static bool answers_continue(const struct comparison *c, const struct oracle_ray *other,
                              const struct oracle_answer *here, const struct oracle_answer *there)
 {
-    if (here->count != there->count || c->ray.crossing_count != other->crossing_count)
+    if (here->count != there->count || !same_leaves(&c->ray, other))
         return false;
     for (uint32_t i = 0; i < here->count; i++)
         if (!end_continues(c, other, here->spans[i].enter, there->spans[i].enter) ||

@@ -143,9 +143,9 @@ static void print_outcome(const char *name, const struct outcome *o)
 static bool acceptable(const struct outcome *o, bool aligned)
 {
     const uint64_t *v = o->verdicts;
-    return v[VERDICT_WRONG] == 0 && o->open == 0 && percent(v[VERDICT_OWNER], o->pixels) < 2 &&
-           percent(v[VERDICT_FORGIVEN], o->pixels) < (aligned ? 5 : 0.1) &&
-           percent(v[VERDICT_UNEXPLAINED], o->pixels) < (aligned              ? 0.5
+    return v[VERDICT_WRONG] == 0 && o->open == 0 && percent(v[VERDICT_OWNER], o->pixels) < 0.01 &&
+           percent(v[VERDICT_FORGIVEN], o->pixels) < (aligned ? 2 : 0.02) &&
+           percent(v[VERDICT_UNEXPLAINED], o->pixels) < (aligned              ? 0.2
                                                          : o->pixels < 100000 ? 0.03
                                                                               : 0.001) &&
            percent(o->unstable, o->probed) < (aligned ? 20 : 2);

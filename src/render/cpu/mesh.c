@@ -11,7 +11,7 @@
 #include <float.h>
 #include <string.h>
 
-enum { GRID_BITS = 12, COORDINATE_BITS = 29, STACK = 128 };
+enum { GRID_BITS = 18, COORDINATE_BITS = 29, STACK = 128 };
 
 // Picture coordinates of a point p of the mesh: x = (gx.p + hx) / t, t = gt.p + ht in perspective,
 // x = gx.p + hx in orthographic views; x and y are pixels times grid.

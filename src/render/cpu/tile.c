@@ -187,7 +187,7 @@ static void make_planes(struct tile *t, const struct planes *p, const struct loc
         v4d slope_x = nx * xx + ny * xy + nz * xz, slope_y = nx * yx + ny * yy + nz * yz;
         v4l edge_on = (den > -least) & (den < least);
         den = (v4d)(((v4l)tiny & edge_on) | ((v4l)den & ~edge_on));
-        v4d moved = num - slope_y * 1e-6 + slope_x * 1e-9;
+        v4d moved = num - slope_y * 1e-4 + slope_x * 1e-5;
         num = (v4d)(((v4l)moved & edge_on) | ((v4l)num & ~edge_on));
         v4d inv = v4_set(1) / den;
         v4d a = num * inv, b = -slope_x * inv, c = -slope_y * inv;

@@ -221,25 +221,6 @@ static bool thick(struct ray_walk *r, crossing a, crossing b)
            t->frame->settings->epsilon;
 }
 
-// Of the crossings at one place, the one whose surface shows there: an entry of an added leaf or
-// the end of a subtracted one (the other way round where the solid ends), the latest of the file.
-static crossing owner_of(struct ray_walk *r, uint32_t from, uint32_t to, bool entering)
-{
-    const struct body *b = r->t->frame->body;
-    crossing best = r->items[from];
-    int64_t best_rank = -1;
-    for (uint32_t i = from; i < to; i++) {
-        uint32_t id = (uint32_t)r->items[i], leaf = r->t->leaves[id >> 1].leaf;
-        bool fits = ((id & 1) != (uint32_t)b->leaves[leaf].subtracted) != entering;
-        int64_t rank = (fits ? (int64_t)1 << 32 : 0) + leaf;
-        if (rank > best_rank) {
-            best_rank = rank;
-            best = r->items[i];
-        }
-    }
-    return best;
-}
-
 static struct boundary boundary_at(struct ray_walk *r, crossing c)
 {
     float steep;
@@ -269,6 +250,72 @@ static void add_span(struct tile *t, struct boundary enter, struct boundary leav
                                               .leave_face = leave.face};
 }
 
+static void step(struct ray_walk *r, crossing c, bool back)
+{
+    const struct body *b = r->t->frame->body;
+    uint32_t id = (uint32_t)c, leaf = r->t->leaves[id >> 1].leaf;
+    bool in = !(id & 1) != back;
+    if (r->array) {
+        r->t->lists->inside[leaf] += in ? 1 : -1;
+        return;
+    }
+    uint64_t value = b->sharing.classes[b->sharing.class_of_leaf[leaf]].value;
+    r->key += in ? value : (uint64_t)0 - value;
+}
+
+static bool is_solid(struct ray_walk *r, const crossing *items, uint32_t n)
+{
+    return r->array ? solid_array(r->t) : solid_hash(r->t, r->key, items, n);
+}
+
+// Would the state behind crossing items[to - 1] be solid without crossing c of the cluster [from,
+// to), or (alone) with no other crossing of the cluster than c?
+static bool solid_if(struct ray_walk *r, uint32_t from, uint32_t to, uint32_t c, bool alone)
+{
+    crossing *rest = r->t->lists->spare;
+    uint32_t n = from;
+    memcpy(rest, r->items, from * sizeof *rest);
+    for (uint32_t i = from; i < to; i++) {
+        if ((i == c) == alone)
+            rest[n++] = r->items[i];
+        else
+            step(r, r->items[i], true);
+    }
+    bool solid = is_solid(r, rest, n);
+    for (uint32_t i = from; i < to; i++)
+        if ((i == c) != alone)
+            step(r, r->items[i], false);
+    return solid;
+}
+
+// Does the leaf of crossing c also cross the other way in the cluster? It is too thin to show.
+static bool is_paired(const struct ray_walk *r, uint32_t from, uint32_t to, uint32_t c)
+{
+    for (uint32_t i = from; i < to; i++)
+        if (((uint32_t)r->items[i] ^ (uint32_t)r->items[c]) == 1)
+            return true;
+    return false;
+}
+
+// Of the crossings at one place, the one whose surface shows there: the latest of the file of those
+// that matter, because the state would be another one without it, or with it alone.
+static crossing owner_of(struct ray_walk *r, uint32_t from, uint32_t to, bool solid)
+{
+    uint32_t best = from, best_leaf = 0;
+    bool found = false;
+    for (uint32_t i = from; i < to && to - from > 1; i++) {
+        uint32_t leaf = r->t->leaves[(uint32_t)r->items[i] >> 1].leaf;
+        if ((found && leaf < best_leaf) || is_paired(r, from, to, i))
+            continue;
+        if (solid_if(r, from, to, i, false) == solid && solid_if(r, from, to, i, true) != solid)
+            continue;
+        found = true;
+        best = i;
+        best_leaf = leaf;
+    }
+    return r->items[best];
+}
+
 // The state changed at the cluster of crossings [from, to). True: the walk is over.
 static bool change(struct ray_walk *r, uint32_t from, uint32_t to, bool solid)
 {
@@ -286,23 +333,6 @@ static bool change(struct ray_walk *r, uint32_t from, uint32_t to, bool solid)
     return false;
 }
 
-static bool is_solid(struct ray_walk *r, uint32_t n)
-{
-    return r->array ? solid_array(r->t) : solid_hash(r->t, r->key, r->items, n);
-}
-
-static void step(struct ray_walk *r, crossing c)
-{
-    const struct body *b = r->t->frame->body;
-    uint32_t id = (uint32_t)c, leaf = r->t->leaves[id >> 1].leaf;
-    if (r->array) {
-        r->t->lists->inside[leaf] += id & 1 ? -1 : 1;
-        return;
-    }
-    uint64_t value = b->sharing.classes[b->sharing.class_of_leaf[leaf]].value;
-    r->key += id & 1 ? (uint64_t)0 - value : value;
-}
-
 // Walks a sorted list. Returns the number of crossings taken: with `more` to come, the last cluster
 // is left for the next list. False answers through *over.
 static uint32_t walk_list(struct ray_walk *r, bool more, bool *over)
@@ -311,19 +341,19 @@ static uint32_t walk_list(struct ray_walk *r, bool more, bool *over)
     *over = false;
     for (; i < r->count; i++) {
         if (i > cluster && thick(r, r->items[cluster], r->items[i])) {
-            bool solid = is_solid(r, i);
+            bool solid = is_solid(r, r->items, i);
             if (solid != r->solid && change(r, cluster, i, solid)) {
                 *over = true;
                 return i;
             }
             cluster = i;
         }
-        step(r, r->items[i]);
+        step(r, r->items[i], false);
     }
     if (more)
         return cluster;
     if (r->count) {
-        bool solid = is_solid(r, r->count);
+        bool solid = is_solid(r, r->items, r->count);
         if (solid != r->solid && change(r, cluster, r->count, solid))
             *over = true;
     }
@@ -473,7 +503,7 @@ static void walk_in_passes(struct ray_walk *r, struct leaf_range leaves)
             taken = r->count;
         r->key = key; // the crossings of the cut-off cluster come again
         for (uint32_t i = 0; i < taken; i++)
-            step(r, w->items[i]);
+            step(r, w->items[i], false);
         if (r->array)
             for (uint32_t i = 0; i < r->count; i++)
                 r->t->lists->inside[r->t->leaves[(uint32_t)w->items[i] >> 1].leaf] -=
