@@ -24,7 +24,7 @@ const char *const fit_text[FITS_COUNT] = {
 };
 
 static const double thin[3] = {1, 0.2, 5};
-static const double aside = 1e-3; // pixels
+static const double aside[2] = {1e-3, 1.5e-4}; // pixels
 
 static bool within(double depth, struct oracle_end end, double tolerance)
 {
@@ -259,10 +259,10 @@ static bool undecided(const struct comparison *c, struct oracle_end end)
     return false;
 }
 
-static void cast_around(struct comparison *c, int x, int y)
+static void cast_around(struct comparison *c, int x, int y, double distance)
 {
     for (int k = 0; k < 9; k++)
-        oracle_cast(c->oracle, c->rays, x + aside * (k % 3 - 1), y + aside * (k / 3 - 1),
+        oracle_cast(c->oracle, c->rays, x + distance * (k % 3 - 1), y + distance * (k / 3 - 1),
                     &c->around[k]);
 }
 
@@ -276,7 +276,7 @@ bool compare_unstable(struct comparison *c, int x, int y)
     for (uint32_t i = 0; i < c->answer.count; i++)
         if (undecided(c, c->answer.spans[i].enter) || undecided(c, c->answer.spans[i].leave))
             return true;
-    cast_around(c, x, y);
+    cast_around(c, x, y, aside[0]);
     for (int k = 0; k < 9; k++) {
         oracle_spans(&c->around[k], c->epsilon, &c->trial);
         if (!answers_continue(c, &c->around[k], &c->answer, &c->trial))
@@ -285,17 +285,20 @@ bool compare_unstable(struct comparison *c, int x, int y)
     return false;
 }
 
+// Is the device's answer right for a ray that passes very close by?
 static bool explained(struct comparison *c, const struct picture *p, int x, int y)
 {
     bool found = false;
-    cast_around(c, x, y);
     c->slack = thin[2];
     c->nearby = true;
-    for (int k = 0; k < 9 && !found; k++)
-        for (int i = 0; i < 3 && !found; i++) {
-            oracle_spans(&c->around[k], thin[i] * c->epsilon, &c->trial);
-            found = !check_pixel(c, &c->around[k], &c->trial, p, y * c->rays->width + x);
-        }
+    for (int d = 0; d < 2 && !found; d++) {
+        cast_around(c, x, y, aside[d]);
+        for (int k = 0; k < 9 && !found; k++)
+            for (int i = 0; i < 3 && !found; i++) {
+                oracle_spans(&c->around[k], thin[i] * c->epsilon, &c->trial);
+                found = !check_pixel(c, &c->around[k], &c->trial, p, y * c->rays->width + x);
+            }
+    }
     c->slack = thin[1];
     c->nearby = false;
     return found;

@@ -145,7 +145,7 @@ static bool acceptable(const struct outcome *o, bool aligned)
     const uint64_t *v = o->verdicts;
     return v[VERDICT_WRONG] == 0 && o->open == 0 && percent(v[VERDICT_OWNER], o->pixels) < 0.01 &&
            percent(v[VERDICT_FORGIVEN], o->pixels) < (aligned ? 2 : 0.02) &&
-           percent(v[VERDICT_UNEXPLAINED], o->pixels) < (aligned              ? 0.2
+           percent(v[VERDICT_UNEXPLAINED], o->pixels) < (aligned              ? 0.02
                                                          : o->pixels < 100000 ? 0.03
                                                                               : 0.001) &&
            percent(o->unstable, o->probed) < (aligned ? 20 : 2);
