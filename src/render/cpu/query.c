@@ -12,13 +12,18 @@
 #define NO_REF   UINT32_MAX
 #define LEAF_BIT 0x80000000u // in a reference: index of a tile leaf; else of a query node
 
+// Where a node can be solid: keys and pixels.
+struct extent {
+    float near, far, x0, y0, x1, y1;
+};
+
 struct query_node { // a node of the expression, as far as the tile needs it
     enum expr_op op;
     uint32_t expr; // node number
     uint32_t minus;
     uint32_t first_link, last_link; // children while they are collected
     uint32_t first, count;          // children in query.kids afterwards, front to back
-    float near, far;
+    struct extent extent;
 };
 
 struct query_link {
@@ -28,7 +33,7 @@ struct query_link {
 struct query_part {
     uint32_t root;         // NO_REF: nothing of it can show in the tile
     uint32_t first, count; // its leaves in tile.leaves
-    float near;
+    struct extent extent;
     bool query;
 };
 
@@ -120,15 +125,44 @@ static uint32_t link_leaf(struct query *q, uint32_t index, uint32_t top)
     return ref;
 }
 
-static void bounds(const struct query *q, uint32_t ref, float *near, float *far)
+static struct extent extent_of(const struct query *q, uint32_t ref)
 {
-    if (ref & LEAF_BIT) {
-        *near = q->t->leaves[ref & ~LEAF_BIT].near;
-        *far = q->t->leaves[ref & ~LEAF_BIT].far;
-    } else {
-        *near = q->nodes[ref].near;
-        *far = q->nodes[ref].far;
-    }
+    if (!(ref & LEAF_BIT))
+        return q->nodes[ref].extent;
+    const struct tile_leaf *l = &q->t->leaves[ref & ~LEAF_BIT];
+    return (struct extent){l->near, l->far, l->x0, l->y0, l->x1, l->y1};
+}
+
+static float least(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static float most(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static struct extent extent_hull(struct extent a, struct extent b)
+{
+    return (struct extent){least(a.near, b.near), most(a.far, b.far), least(a.x0, b.x0),
+                           least(a.y0, b.y0),     most(a.x1, b.x1),   most(a.y1, b.y1)};
+}
+
+static struct extent extent_overlap(struct extent a, struct extent b)
+{
+    return (struct extent){most(a.near, b.near), least(a.far, b.far), most(a.x0, b.x0),
+                           most(a.y0, b.y0),     least(a.x1, b.x1),   least(a.y1, b.y1)};
+}
+
+// Can none of it be in the current block?
+static bool misses_block(const struct query *q, uint32_t ref)
+{
+    if (ref & LEAF_BIT)
+        return false; // tile_crossings looks for itself
+    const struct extent *e = &q->nodes[ref].extent;
+    float x = (float)q->t->bx, y = (float)q->t->by;
+    return e->x1 < x || e->x0 > x + (BLOCK - 1) || e->y1 < y || e->y0 > y + (BLOCK - 1);
 }
 
 // Drops what cannot be solid here; returns what is left of the node. Depth is bounded by frame.c.
@@ -138,24 +172,22 @@ static uint32_t prune(struct query *q, uint32_t ref)
         return NO_REF;
     if (ref & LEAF_BIT)
         return q->t->leaves[ref & ~LEAF_BIT].state == LEAF_ABSENT ? NO_REF : ref;
-    const struct expr_node *e = &q->t->frame->body->expr.nodes[q->nodes[ref].expr];
+    uint32_t needed = q->t->frame->body->expr.nodes[q->nodes[ref].expr].count;
     bool any = q->nodes[ref].op == EXPR_UNION;
     uint32_t kept = 0, last = NO_REF;
-    float near = any ? NEVER : -NEVER, far = any ? -NEVER : NEVER;
+    struct extent extent = {0};
 
     for (uint32_t l = q->nodes[ref].first_link; l != NO_REF; l = q->links[l].next) {
-        float n, f;
         uint32_t kid = prune(q, q->links[l].ref);
         q->links[l].ref = kid;
         if (kid == NO_REF)
             continue;
-        bounds(q, kid, &n, &f);
-        near = any ? fminf(near, n) : fmaxf(near, n);
-        far = any ? fmaxf(far, f) : fminf(far, f);
+        struct extent e = extent_of(q, kid);
+        extent = !kept ? e : any ? extent_hull(extent, e) : extent_overlap(extent, e);
         kept++;
         last = kid;
     }
-    if (!kept || (!any && (kept < e->count || near > far)))
+    if (!kept || (!any && (kept < needed || extent.near > extent.far)))
         return NO_REF;
     uint32_t minus = prune(q, q->nodes[ref].minus);
     if (kept == 1 && minus == NO_REF)
@@ -169,16 +201,15 @@ static uint32_t prune(struct query *q, uint32_t ref)
     n->first = first;
     n->count = kept;
     n->minus = minus;
-    n->near = near;
-    n->far = far;
+    n->extent = extent;
     return ref;
 }
 
 static int by_near(const void *a, const void *b)
 {
     const struct query_part *p = a, *q = b;
-    if (p->near != q->near)
-        return p->near < q->near ? -1 : 1;
+    if (p->extent.near != q->extent.near)
+        return p->extent.near < q->extent.near ? -1 : 1;
     return p->first < q->first ? -1 : p->first > q->first;
 }
 
@@ -203,9 +234,10 @@ void query_enter(struct query *q)
     q->node_count = q->link_count = q->kid_count = q->part_count = 0;
     for (uint32_t i = 0, end; i < t->leaf_count; i = end) {
         const struct frame_part *fp = &t->frame->parts[t->leaves[i].part];
-        struct query_part p = {.root = NO_REF, .first = i, .query = fp->query, .near = NEVER};
+        struct query_part p = {.root = NO_REF, .first = i, .query = fp->query};
         for (end = i; end < t->leaf_count && t->leaves[end].part == t->leaves[i].part; end++)
-            p.near = fminf(p.near, t->leaves[end].near);
+            p.extent = end == i ? extent_of(q, end | LEAF_BIT)
+                                : extent_hull(p.extent, extent_of(q, end | LEAF_BIT));
         p.count = end - i;
         if (p.query) {
             uint32_t begun = q->node_count, top = NO_REF;
@@ -218,8 +250,7 @@ void query_enter(struct query *q)
             p.root = prune(q, top);
             if (p.root == NO_REF)
                 continue;
-            float far;
-            bounds(q, p.root, &p.near, &far);
+            p.extent = extent_of(q, p.root);
         }
         array_reserve(&q->parts, &q->part_capacity, q->part_count + 1);
         q->parts[q->part_count++] = p;
@@ -457,12 +488,11 @@ static bool union_in(struct query *q, const struct query_node *n, struct rays_at
         best.owner[y] = v8_seti(-1);
     }
     for (uint32_t i = 0; i < n->count; i++) {
-        float near, far;
-        bounds(q, q->kids[n->first + i], &near, &far);
-        if (near > high)
+        uint32_t kid = q->kids[n->first + i];
+        if (extent_of(q, kid).near > high || misses_block(q, kid))
             continue;
         one = *s;
-        move_in(q, q->kids[n->first + i], &one);
+        move_in(q, kid, &one);
         nearer(q, &best, &one);
         high = -NEVER; // rays that are done (never) need no answer
         for (int y = 0; y < BLOCK; y++) {
@@ -488,9 +518,8 @@ static bool union_out(struct query *q, const struct query_node *n, struct rays_a
         float high = highest(s->key), low = lowest(s->key);
         for (uint32_t i = 0; i < n->count; i++) {
             uint32_t ref = q->kids[n->first + i];
-            float near, far;
-            bounds(q, ref, &near, &far);
-            if (near > high + reach || far < low - reach)
+            struct extent e = extent_of(q, ref);
+            if (e.near > high + reach || e.far < low - reach || misses_block(q, ref))
                 continue;
             bool moved =
                 ref & LEAF_BIT ? leaf_out(q, ref & ~LEAF_BIT, high, s) : move_out(q, ref, s);
@@ -555,6 +584,8 @@ static bool move_in(struct query *q, uint32_t ref, struct rays_at *s)
 {
     if (ref & LEAF_BIT)
         return leaf_in(q, ref & ~LEAF_BIT, s);
+    if (misses_block(q, ref))
+        return kill(s);
     const struct query_node *n = &q->nodes[ref];
     return n->op == EXPR_UNION ? union_in(q, n, s) : intersection_in(q, n, s);
 }
@@ -563,6 +594,8 @@ static bool move_out(struct query *q, uint32_t ref, struct rays_at *s)
 {
     if (ref & LEAF_BIT)
         return leaf_out(q, ref & ~LEAF_BIT, highest(s->key), s);
+    if (misses_block(q, ref))
+        return false;
     const struct query_node *n = &q->nodes[ref];
     return n->op == EXPR_UNION ? union_out(q, n, s) : intersection_out(q, n, s);
 }
@@ -625,8 +658,10 @@ void query_block(struct query *q, struct rays_at *out)
     }
     for (uint32_t i = 0; i < q->part_count; i++) {
         const struct query_part *p = &q->parts[i];
-        if (p->near > high)
+        if (p->extent.near > high)
             break;
+        if (p->root != NO_REF && misses_block(q, p->root))
+            continue;
         t->limit = high + t->frame->epsilon;
         if (p->root != NO_REF && p->root & LEAF_BIT) {
             leaf_alone(q, p->root & ~LEAF_BIT, out);
