@@ -8,13 +8,15 @@
 // Each marked object is drawn on its own; past this number of a kind the rest shares one body.
 enum { BODIES_MAX = 64 };
 
+// Numbers of six digits are off by up to 5e-6 of their size. Small models, as those drawn in
+// metres, are not to lose their real layers to that; large ones mostly have round numbers.
 static double default_epsilon(struct box bounds)
 {
     double extent = 0;
     if (!box_is_empty(bounds))
         extent = fmax(bounds.max.x - bounds.min.x,
                       fmax(bounds.max.y - bounds.min.y, bounds.max.z - bounds.min.z));
-    return fmax(1e-3, 2e-6 * extent);
+    return extent < 100 ? 1e-5 * extent : fmax(1e-3, 2e-6 * extent);
 }
 
 double model_epsilon(const struct model *m, double asked)

@@ -47,8 +47,7 @@ struct model {
 };
 
 struct model_options {
-    double
-        epsilon; // filter in mm across the faces; negative: max(1e-3, 2e-6 * extent of the model)
+    double epsilon;  // filter in mm across the faces; negative: the default for the model's extent
     bool share, roi; // value sharing and regions of interest; true unless the bench compares
 };
 #define MODEL_DEFAULTS ((struct model_options){.epsilon = -1, .share = true, .roi = true})

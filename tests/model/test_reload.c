@@ -58,15 +58,21 @@ static void filter_follows_the_extent(void **state)
     (void)state;
     struct solid_store *store = solid_store_new();
     struct model m = build("cube([10, 20, 30]);", store);
-    assert_true(model_epsilon(&m, -1) == 1e-3);
+    assert_true(fabs(model_epsilon(&m, -1) - 3e-4) < 1e-15);
     assert_true(model_epsilon(&m, 0) == 0);
     assert_true(model_epsilon(&m, 0.5) == 0.5);
     model_free(&m);
     m = build("cube([10, 2000, 30]);", store);
     assert_true(fabs(model_epsilon(&m, -1) - 4e-3) < 1e-15);
     model_free(&m);
-    m = build("", store);
+    m = build("cube([10, 200, 30]);", store);
     assert_true(model_epsilon(&m, -1) == 1e-3);
+    model_free(&m);
+    m = build("cube([1e-3, 2e-3, 3e-3]);", store); // drawn in metres
+    assert_true(fabs(model_epsilon(&m, -1) - 3e-8) < 1e-15);
+    model_free(&m);
+    m = build("", store);
+    assert_true(model_epsilon(&m, -1) == 0);
     assert_int_equal(m.body_count, 1);
     assert_true(box_is_empty(m.bounds));
     model_free(&m);
