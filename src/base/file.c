@@ -17,7 +17,7 @@ bool file_read(const char *path, size_t limit, char **data, size_t *size, struct
     size_t used = 0, capacity = 1 << 16;
     struct stat st;
     bool standard = strcmp(path, "-") == 0;
-    int fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    int fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
 
     if (fd < 0 || fstat(fd, &st) != 0) {
         error_set(err, "%s: %s", path, strerror(errno));
@@ -82,50 +82,64 @@ static bool write_all(int fd, const char *data, size_t size)
     return true;
 }
 
+// A new file beside `path`; its name goes to `name`, which is `size` long.
+static int open_beside(const char *path, char *name, size_t size)
+{
+    int fd = -1;
+    errno = EEXIST;
+    for (unsigned i = 0; fd < 0 && errno == EEXIST; i++) {
+        snprintf(name, size, "%s.%d-%u", path, (int)getpid(), i);
+        fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    }
+    return fd;
+}
+
+static bool write_beside(const char *path, const void *data, size_t size)
+{
+    size_t room = strlen(path) + 32;
+    char *name = mem_alloc(room);
+    int fd = open_beside(path, name, room);
+    bool ok = fd >= 0 && write_all(fd, data, size);
+    int saved = errno;
+    if (fd >= 0 && close(fd) != 0 && ok) {
+        ok = false;
+        saved = errno;
+    }
+    if (ok && rename(name, path) != 0) {
+        ok = false;
+        saved = errno;
+    }
+    if (fd >= 0 && !ok)
+        unlink(name);
+    free(name);
+    errno = saved;
+    return ok;
+}
+
+// Pipes and devices cannot be renamed over.
+static bool write_in_place(const char *path, const void *data, size_t size)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    bool ok = fd >= 0 && write_all(fd, data, size);
+    int saved = errno;
+    if (fd >= 0)
+        close(fd);
+    errno = saved;
+    return ok;
+}
+
 bool file_write(const char *path, const void *data, size_t size, struct error *err)
 {
-    if (strcmp(path, "-") == 0) {
-        if (write_all(STDOUT_FILENO, data, size))
-            return true;
-        error_set(err, "standard output: %s", strerror(errno));
-        return false;
-    }
     struct stat st;
-    if (stat(path, &st) == 0 && !S_ISREG(st.st_mode)) { // a pipe or a device: no renaming
-        int fd = open(path, O_WRONLY | O_CLOEXEC);
-        bool ok = fd >= 0 && write_all(fd, data, size);
-        if (!ok)
-            error_set(err, "%s: %s", path, strerror(errno));
-        if (fd >= 0)
-            close(fd);
-        return ok;
-    }
-    size_t length = strlen(path);
-    char *temporary = mem_alloc(length + 16);
-    snprintf(temporary, length + 16, "%s.XXXXXX", path);
-    int fd = mkostemp(temporary, O_CLOEXEC);
-    if (fd < 0) {
-        error_set(err, "%s: %s", path, strerror(errno));
-        free(temporary);
-        return false;
-    }
-    mode_t mask = umask(0);
-    umask(mask);
-    bool ok = fchmod(fd, 0666 & ~mask) == 0 && write_all(fd, data, size);
-    int saved = errno;
-    if (close(fd) != 0 && ok) {
-        ok = false;
-        saved = errno;
-    }
-    if (ok && rename(temporary, path) != 0) {
-        ok = false;
-        saved = errno;
-    }
-    if (!ok) {
-        unlink(temporary);
-        error_set(err, "%s: %s", path, strerror(saved));
-    }
-    free(temporary);
+    bool ok, standard = strcmp(path, "-") == 0;
+    if (standard)
+        ok = write_all(STDOUT_FILENO, data, size);
+    else if (stat(path, &st) == 0 && !S_ISREG(st.st_mode))
+        ok = write_in_place(path, data, size);
+    else
+        ok = write_beside(path, data, size);
+    if (!ok)
+        error_set(err, "%s: %s", standard ? "standard output" : path, strerror(errno));
     return ok;
 }
 
