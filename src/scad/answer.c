@@ -195,7 +195,7 @@ void scad_read_files(const char *rule_path, const char *path, struct scad_result
     char *rule = NULL;
     size_t size, length;
     add_file(out, &capacity, mem_strdup(path));
-    if (file_read(rule_path, RULE_LIMIT, &rule, &size, NULL)) {
+    if (rule_path && file_read(rule_path, RULE_LIMIT, &rule, &size, NULL)) {
         const char *rest = rule;
         next_line(&rest, &length); // the target
         for (const char *line; (line = next_line(&rest, &length));) {

@@ -12,8 +12,9 @@ void scad_log_add(struct scad_log *log, const char *data, size_t size);
 // Whether openscad reported an error, which does not show in its exit code.
 bool scad_log_has_error(const char *log);
 
-// Reads the rule that `openscad -d` wrote; `path` comes first. Files that the messages name are
-// taken in as well: without a rule (after a syntax error) they are all that is known.
+// Reads the rule that `openscad -d` wrote, NULL when it never ran; `path` comes first. Files that
+// the messages name are taken in as well: without a rule (after a syntax error) they are all that
+// is known.
 void scad_read_files(const char *rule_path, const char *path, struct scad_result *out);
 // Says in one line what the messages say, with the place in front when they name one.
 void scad_error(const struct scad_result *r, struct error *err);
