@@ -84,11 +84,6 @@ void *arena_alloc(struct arena *a, size_t size)
     return p;
 }
 
-void *arena_zalloc(struct arena *a, size_t size)
-{
-    return memset(arena_alloc(a, size), 0, size);
-}
-
 char *arena_text(struct arena *a, const char *text, size_t length)
 {
     char *copy = arena_alloc(a, length + 1);
@@ -104,17 +99,4 @@ void arena_free(struct arena *a)
         free(b);
     }
     *a = (struct arena){0};
-}
-
-void arena_reset(struct arena *a)
-{
-    if (!a->block)
-        return;
-    for (struct arena_block *b = a->block->older, *older; b; b = older) {
-        older = b->older;
-        free(b);
-    }
-    a->block->older = NULL;
-    a->used = 0;
-    a->total = sizeof *a->block + a->size;
 }

@@ -25,7 +25,5 @@ struct arena {
 };
 
 void *arena_alloc(struct arena *a, size_t size); // uninitialised, aligned to 16 bytes
-void *arena_zalloc(struct arena *a, size_t size);
 char *arena_text(struct arena *a, const char *text, size_t length); // copies and terminates
 void arena_free(struct arena *a);                                   // leaves {0}
-void arena_reset(struct arena *a); // forgets the content, keeps the newest block for reuse
