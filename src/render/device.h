@@ -6,12 +6,18 @@
 #define SURFACE_NONE UINT32_MAX // in `leaf`: nothing there
 #define SURFACE_CAP  UINT32_MAX // in `face`: solid cut open by the near plane
 
-// First visible surface of each pixel, row by row from the top.
+// First visible surface of each pixel, row by row from the top. Where nothing is, depth is INFINITY
+// and face is not written.
 struct surface_image {
     int width, height;
     float *depth;   // depth - rays.reference in mm
     uint32_t *leaf; // leaf number within the body or SURFACE_NONE
     uint32_t *face; // face of the leaf's solid or SURFACE_CAP
+};
+
+// Pixels [x0, x1) x [y0, y1).
+struct pixel_rect {
+    int x0, y0, x1, y1;
 };
 
 // One solid interval of a ray.
@@ -55,10 +61,13 @@ struct cpu_device;
 struct cpu_device *cpu_device_new(void);
 void cpu_device_delete(struct cpu_device *d);
 
-// Fills *out (arrays of width * height, owned by the caller).
+// Fills *out (arrays of width * height, owned by the caller). `drawn`, unless NULL, is called for
+// rectangles that cover the picture, each pixel once, when their surfaces are there, from several
+// threads at once; `nothing` says that no pixel of it has a surface.
 void cpu_first_surface(struct cpu_device *d, const struct body *body, const struct rays *rays,
                        const struct render_settings *settings, struct surface_image *out,
-                       struct render_stats *stats);
+                       void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                       void *context, struct render_stats *stats);
 
 // Calls `sink` for blocks that cover the picture, each pixel once, from several threads at once
 // (worker numbers below parallel_workers(threads)).

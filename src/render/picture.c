@@ -26,6 +26,7 @@ struct drawing {
     struct light light;
     struct surface_image *surface; // of an opaque body
     bool record;                   // into picture->surface
+    bool first;                    // nothing was drawn before it
     float tolerance;               // depths within it are equal
 };
 
@@ -43,7 +44,7 @@ static void reserve(struct picture *p, int width, int height)
                                             .leaf = mem_alloc(n * sizeof(uint32_t)),
                                             .face = mem_alloc(n * sizeof(uint32_t))};
     p->rgb = mem_alloc(3 * n);
-    p->depth = mem_alloc(n * sizeof(float));
+    p->depth = p->surface.depth;
     p->width = width;
     p->height = height;
 }
@@ -57,7 +58,6 @@ void picture_free(struct picture *p)
         free(images[i]->face);
     }
     free(p->rgb);
-    free(p->depth);
     *p = (struct picture){0};
 }
 
@@ -66,46 +66,101 @@ static uint8_t mixed(uint8_t from, uint8_t to, double share)
     return (uint8_t)(from + (to - from) * share + 0.5);
 }
 
+static void background_at(const struct drawing *d, int y, uint8_t colour[3])
+{
+    struct rgb top = d->shader->scheme->background, bottom = d->shader->scheme->background_bottom;
+    double share = (y + 0.5) / d->picture->height;
+    colour[0] = mixed(top.r, bottom.r, share);
+    colour[1] = mixed(top.g, bottom.g, share);
+    colour[2] = mixed(top.b, bottom.b, share);
+}
+
+static void clear_row(const struct drawing *d, int y, int x0, int x1)
+{
+    struct picture *p = d->picture;
+    size_t width = (size_t)(x1 - x0), at = (size_t)y * (size_t)p->width + (size_t)x0;
+    uint8_t *row = p->rgb + 3 * at;
+    background_at(d, y, row);
+    for (size_t done = 1; done < width; done *= 2) // doubles what is there
+        memcpy(row + 3 * done, row, 3 * (done < width - done ? done : width - done));
+}
+
 static void clear_rows(void *context, uint32_t item, uint32_t worker)
 {
     (void)worker;
     const struct drawing *d = context;
     struct picture *p = d->picture;
-    struct rgb top = d->shader->scheme->background, bottom = d->shader->scheme->background_bottom;
-    size_t width = (size_t)p->width;
     int last = (int)(item + 1) * ROWS;
     for (int y = (int)item * ROWS; y < last && y < p->height; y++) {
-        double share = (y + 0.5) / p->height;
-        uint8_t *row = p->rgb + 3 * width * (size_t)y;
-        row[0] = mixed(top.r, bottom.r, share);
-        row[1] = mixed(top.g, bottom.g, share);
-        row[2] = mixed(top.b, bottom.b, share);
-        for (size_t done = 1; done < width; done *= 2) // doubles what is there
-            memcpy(row + 3 * done, row, 3 * (done < width - done ? done : width - done));
-        for (size_t i = width * (size_t)y; i < width * ((size_t)y + 1); i++) {
-            p->depth[i] = INFINITY;
-            p->surface.leaf[i] = SURFACE_NONE;
+        clear_row(d, y, 0, p->width);
+        for (size_t i = 0, at = (size_t)y * (size_t)p->width; i < (size_t)p->width; i++) {
+            p->depth[at + i] = INFINITY;
+            p->surface.leaf[at + i] = SURFACE_NONE;
         }
     }
 }
 
-static void shade_rows(void *context, uint32_t item, uint32_t worker)
+static void fill(uint8_t *rgb, const uint8_t colour[3], size_t count)
 {
-    (void)worker;
-    const struct drawing *d = context;
-    struct picture *p = d->picture;
+    for (size_t i = 0; i < count; i++)
+        memcpy(rgb + 3 * i, colour, 3);
+}
+
+// A row of the first body: background and surfaces in runs of one face.
+static void shade_runs(const struct drawing *d, struct shade_cache *cache, int y, int x0, int x1)
+{
     const struct surface_image *s = d->surface;
-    struct shade_cache cache;
-    shade_cache_clear(&cache);
-    uint32_t last = (item + 1) * ROWS, height = (uint32_t)p->height;
-    size_t from = (size_t)item * ROWS * (size_t)p->width;
-    size_t to = (size_t)(last < height ? last : height) * (size_t)p->width;
-    for (size_t i = from; i < to; i++) {
+    size_t row = (size_t)y * (size_t)s->width, end = row + (size_t)x1, next;
+    uint8_t background[3];
+    background_at(d, y, background);
+    for (size_t i = row + (size_t)x0; i < end; i = next) {
+        uint32_t leaf = s->leaf[i];
+        next = i + 1;
+        if (leaf == SURFACE_NONE) {
+            while (next < end && s->leaf[next] == SURFACE_NONE)
+                next++;
+            fill(d->picture->rgb + 3 * i, background, next - i);
+            continue;
+        }
+        uint32_t face = s->face[i];
+        while (next < end && s->leaf[next] == leaf && s->face[next] == face)
+            next++;
+        struct rgba c = shade_cached(cache, d->shader, d->body, &d->light, leaf, face);
+        fill(d->picture->rgb + 3 * i, (uint8_t[3]){c.r, c.g, c.b}, next - i);
+    }
+}
+
+// A row of a later body: what is nearer than all before it.
+static void shade_nearer(const struct drawing *d, struct shade_cache *cache, int y, int x0, int x1)
+{
+    const struct surface_image *s = d->surface;
+    struct picture *p = d->picture;
+    size_t row = (size_t)y * (size_t)s->width;
+    for (size_t i = row + (size_t)x0; i < row + (size_t)x1; i++) {
         if (s->leaf[i] == SURFACE_NONE || s->depth[i] > p->depth[i] + d->tolerance)
             continue;
-        struct rgba c = shade_cached(&cache, d->shader, d->body, &d->light, s->leaf[i], s->face[i]);
+        struct rgba c = shade_cached(cache, d->shader, d->body, &d->light, s->leaf[i], s->face[i]);
         memcpy(p->rgb + 3 * i, &c, 3);
         p->depth[i] = s->depth[i];
+    }
+}
+
+// Shades what was just drawn while it is in the processor's cache.
+static void shade_rect(void *context, struct pixel_rect rect, bool nothing)
+{
+    const struct drawing *d = context;
+    struct shade_cache cache;
+    if (nothing && !d->first)
+        return;
+    if (!nothing)
+        shade_cache_clear(&cache);
+    for (int y = rect.y0; y < rect.y1; y++) {
+        if (nothing)
+            clear_row(d, y, rect.x0, rect.x1);
+        else if (d->first)
+            shade_runs(d, &cache, y, rect.x0, rect.x1);
+        else
+            shade_nearer(d, &cache, y, rect.x0, rect.x1);
     }
 }
 
@@ -184,7 +239,6 @@ static void finish_ray(const struct ray_state *r, size_t pixel)
     }
     p->depth[pixel] = r->near.enter;
     if (r->drawing->record) {
-        p->surface.depth[pixel] = r->near.enter;
         p->surface.leaf[pixel] = r->near.enter_leaf;
         p->surface.face[pixel] = r->near.enter_face;
     }
@@ -234,11 +288,14 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
 {
     *stats = (struct render_stats){0};
     reserve(p, rays->width, rays->height);
-    uint32_t items = ((uint32_t)p->height + ROWS - 1) / ROWS;
-    parallel_for(items, settings->threads, clear_rows,
-                 &(struct drawing){.picture = p, .shader = shader});
-    for (uint32_t b = 0; b < shader->model->body_count; b++) {
-        const struct body *body = &shader->model->bodies[b];
+    const struct model *model = shader->model;
+    bool begun = model->body_count && shader->bodies[0].opaque &&
+                 model->bodies[0].kind == BODY_MAIN; // it brings the background
+    if (!begun)
+        parallel_for(((uint32_t)p->height + ROWS - 1) / ROWS, settings->threads, clear_rows,
+                     &(struct drawing){.picture = p, .shader = shader});
+    for (uint32_t b = 0; b < model->body_count; b++) {
+        const struct body *body = &model->bodies[b];
         bool main = body->kind == BODY_MAIN;
         struct drawing d = {.picture = p,
                             .shader = shader,
@@ -247,12 +304,12 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
                             .light = light_of(rays),
                             .surface = main ? &p->surface : &p->scratch,
                             .record = main,
+                            .first = begun && b == 0,
                             .tolerance =
                                 (float)fmax(settings->epsilon, ROUNDING * fabs(rays->reference))};
         struct render_stats one = {0};
         if (d.shading->opaque) {
-            cpu_first_surface(device, body, rays, settings, d.surface, &one);
-            parallel_for(items, settings->threads, shade_rows, &d);
+            cpu_first_surface(device, body, rays, settings, d.surface, shade_rect, &d, &one);
         } else {
             cpu_spans(device, body, rays, settings, blend_block, &d, &one);
         }

@@ -8,7 +8,7 @@ struct picture { // {0} is valid; buffers are kept from drawing to drawing
     int width, height;
     uint8_t *rgb;                 // rows from the top without padding
     struct surface_image surface; // nearest surface of the main body, for picking
-    float *depth;                 // of the nearest surface of all bodies, INFINITY where nothing is
+    float *depth; // surface.depth: of the nearest surface of all bodies, or INFINITY
     struct surface_image scratch;
 };
 

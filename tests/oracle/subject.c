@@ -152,7 +152,7 @@ void picture_render(struct picture *out, const struct body *body, const struct r
     out->spans = mem_zalloc(n * sizeof *out->spans);
     struct collector c = {out, rays->width};
     struct cpu_device *device = cpu_device_new();
-    cpu_first_surface(device, body, rays, settings, &out->image, &out->surface_stats);
+    cpu_first_surface(device, body, rays, settings, &out->image, NULL, NULL, &out->surface_stats);
     cpu_spans(device, body, rays, settings, collect, &c, &out->span_stats);
     cpu_device_delete(device);
 }

@@ -24,15 +24,17 @@ static struct body bodies[BODIES];
 
 void cpu_first_surface(struct cpu_device *d, const struct body *body, const struct rays *rays,
                        const struct render_settings *settings, struct surface_image *out,
-                       struct render_stats *stats)
+                       void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                       void *context, struct render_stats *stats)
 {
     (void)d, (void)settings;
     const struct script *s = &scripts[body - bodies];
     for (int i = 0; i < rays->width * rays->height; i++) {
         out->leaf[i] = s->count ? s->spans[0].enter_leaf : SURFACE_NONE;
         out->face[i] = s->spans[0].enter_face;
-        out->depth[i] = s->spans[0].enter;
+        out->depth[i] = s->count ? s->spans[0].enter : INFINITY;
     }
+    drawn(context, (struct pixel_rect){0, 0, rays->width, rays->height}, !s->count);
     stats->fragments = 1;
 }
 

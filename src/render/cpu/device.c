@@ -21,6 +21,8 @@ struct cpu_device {
     const struct kernel *kernel;
     struct tree_entry *trees; // of the mesh solids of the newest frames
     uint32_t tree_count, tree_capacity;
+    void **workers; // made when there is work for them; NULL until then
+    uint32_t worker_count;
 };
 
 struct cpu_device *cpu_device_new(void)
@@ -41,6 +43,10 @@ void cpu_device_delete(struct cpu_device *d)
     for (uint32_t i = 0; i < d->tree_count; i++)
         mesh_tree_free(&d->trees[i].tree);
     free(d->trees);
+    for (uint32_t i = 0; i < d->worker_count; i++)
+        if (d->workers[i])
+            d->kernel->worker_delete(d->workers[i]);
+    free(d->workers);
     free(d);
 }
 
@@ -85,14 +91,22 @@ static void attach_trees(struct cpu_device *d, struct frame *f)
 struct run {
     const struct kernel *kernel;
     const struct kernel_job *job;
-    void **workers; // made by each thread when it first has work
+    void **workers;
+    bool *ready; // has worked on this frame
 };
 
 static void run_tile(void *context, uint32_t item, uint32_t worker)
 {
     struct run *r = context;
-    if (!r->workers[worker])
-        r->workers[worker] = r->kernel->worker_new(r->job, worker);
+    if (!r->ready[worker]) {
+        if (r->workers[worker] && !r->kernel->worker_reuse(r->workers[worker], r->job)) {
+            r->kernel->worker_delete(r->workers[worker]);
+            r->workers[worker] = NULL;
+        }
+        if (!r->workers[worker])
+            r->workers[worker] = r->kernel->worker_new(r->job, worker);
+        r->ready[worker] = true;
+    }
     r->kernel->tile(r->workers[worker], r->job, item);
 }
 
@@ -109,13 +123,18 @@ static void render(struct cpu_device *d, const struct body *body, const struct r
     attach_trees(d, &f);
     job->frame = &f;
     job->memory = (settings->memory ? settings->memory : MEMORY_DEFAULT) / workers;
-    struct run r = {d->kernel, job, mem_zalloc(workers * sizeof(void *))};
+    if (workers > d->worker_count) {
+        d->workers = mem_realloc(d->workers, workers * sizeof *d->workers);
+        while (d->worker_count < workers)
+            d->workers[d->worker_count++] = NULL;
+    }
+    struct run r = {d->kernel, job, d->workers, mem_zalloc(workers * sizeof(bool))};
     double ready = clock_seconds();
     parallel_for((uint32_t)(f.tiles_x * f.tiles_y), settings->threads, run_tile, &r);
     for (uint32_t i = 0; i < workers; i++)
-        if (r.workers[i])
-            d->kernel->worker_delete(r.workers[i], &totals);
-    free(r.workers);
+        if (r.ready[i])
+            d->kernel->worker_add(r.workers[i], &totals);
+    free(r.ready);
     if (stats)
         *stats = (struct render_stats){.seconds_setup = ready - begun,
                                        .seconds_draw = clock_seconds() - ready,
@@ -128,9 +147,10 @@ static void render(struct cpu_device *d, const struct body *body, const struct r
 
 void cpu_first_surface(struct cpu_device *d, const struct body *body, const struct rays *rays,
                        const struct render_settings *settings, struct surface_image *out,
-                       struct render_stats *stats)
+                       void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                       void *context, struct render_stats *stats)
 {
-    struct kernel_job job = {.image = out};
+    struct kernel_job job = {.image = out, .drawn = drawn, .context = context};
     out->width = rays->width;
     out->height = rays->height;
     render(d, body, rays, settings, &job, stats);

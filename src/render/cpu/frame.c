@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -156,60 +157,70 @@ static uint32_t find_parts(const struct body *b, struct frame_part *parts, uint3
     return count;
 }
 
-static int by_near_part(const void *a, const void *b)
+static bool is_outside(const struct frame *f, const struct frame_leaf *l)
 {
-    const struct frame_part *p = a, *q = b;
-    if (p->near != q->near)
-        return p->near < q->near ? -1 : 1;
-    return p->node < q->node ? -1 : p->node > q->node;
+    return l->part == EXPR_NONE || l->x1 < l->x0 || l->y1 < l->y0 || l->x1 < 0 || l->y1 < 0 ||
+           l->x0 > (float)(f->rays->width - 1) || l->y0 > (float)(f->rays->height - 1);
 }
 
-static int by_part_near(const void *a, const void *b)
+// Puts the parts in order, front to back. items and spare have room for all of them; afterwards
+// items[i].index is the new place of the part that was number i.
+static void sort_parts(struct frame *f, struct sort_item *items, struct sort_item *spare)
 {
-    const struct frame_leaf *p = a, *q = b;
-    if (p->part != q->part)
-        return p->part < q->part ? -1 : 1;
-    if (p->near != q->near)
-        return p->near < q->near ? -1 : 1;
-    return p->leaf < q->leaf ? -1 : p->leaf > q->leaf;
+    for (uint32_t i = 0; i < f->part_count; i++)
+        items[i] = (struct sort_item){sort_number(f->parts[i].near), i};
+    sort_items(items, spare, f->part_count);
+    struct frame_part *sorted = mem_alloc((f->part_count + 1) * sizeof *sorted);
+    for (uint32_t i = 0; i < f->part_count; i++)
+        sorted[i] = f->parts[items[i].index];
+    for (uint32_t i = 0; i < f->part_count; i++)
+        spare[items[i].index].index = i;
+    for (uint32_t i = 0; i < f->part_count; i++)
+        items[i].index = spare[i].index;
+    free(f->parts);
+    f->parts = sorted;
 }
 
-// Sorts the parts, then the leaves; drops leaves outside of the picture.
-static void sort_leaves(struct frame *f, struct frame_leaf *all, uint32_t part_count)
+// Keeps of all leaves of the body those that are in the picture: parts front to back, leaves of a
+// part front to back.
+static void sort_leaves(struct frame *f, const struct frame_leaf *all)
 {
+    uint32_t most = f->body->leaf_count > f->part_count ? f->body->leaf_count : f->part_count;
+    struct sort_item *items = mem_alloc((most + 1) * sizeof *items);
+    struct sort_item *spare = mem_alloc((most + 1) * sizeof *spare);
     uint32_t count = 0;
-    for (uint32_t i = 0; i < part_count; i++)
+
+    for (uint32_t i = 0; i < f->part_count; i++)
         f->parts[i].near = INFINITY;
-    for (uint32_t i = 0; i < f->body->leaf_count; i++) {
-        const struct frame_leaf *l = &all[i];
-        if (l->part == EXPR_NONE || l->x1 < l->x0 || l->y1 < l->y0 || l->x1 < 0 || l->y1 < 0 ||
-            l->x0 > (float)(f->rays->width - 1) || l->y0 > (float)(f->rays->height - 1))
-            continue;
-        all[count++] = *l;
-        f->parts[l->part].near = fminf(f->parts[l->part].near, l->near);
-    }
-    for (uint32_t i = 0; i < part_count; i++) // remembered across the sort in `first`
-        f->parts[i].first = i;
-    qsort(f->parts, part_count, sizeof *f->parts, by_near_part);
-    uint32_t *rank = mem_alloc((part_count + 1) * sizeof *rank);
-    for (uint32_t i = 0; i < part_count; i++)
-        rank[f->parts[i].first] = i;
-    for (uint32_t i = 0; i < count; i++)
-        all[i].part = rank[all[i].part];
-    free(rank);
-    qsort(all, count, sizeof *all, by_part_near);
-    for (uint32_t i = 0; i < part_count; i++)
-        f->parts[i].first = f->parts[i].count = 0;
-    for (uint32_t i = count; i-- > 0;) {
-        f->parts[all[i].part].first = i;
-        f->parts[all[i].part].count++;
-        const struct solid *s = f->body->leaves[all[i].leaf].solid;
+    for (uint32_t i = 0; i < f->body->leaf_count; i++)
+        if (!is_outside(f, &all[i]) && all[i].near < f->parts[all[i].part].near)
+            f->parts[all[i].part].near = all[i].near;
+    sort_parts(f, items, spare);
+    uint32_t *rank = mem_alloc((f->part_count + 1) * sizeof *rank);
+    for (uint32_t i = 0; i < f->part_count; i++)
+        rank[i] = items[i].index;
+
+    for (uint32_t i = 0; i < f->body->leaf_count; i++)
+        if (!is_outside(f, &all[i]))
+            items[count++] =
+                (struct sort_item){(uint64_t)rank[all[i].part] << 32 | sort_number(all[i].near), i};
+    sort_items(items, spare, count);
+    f->leaves = mem_alloc((count + 1) * sizeof *f->leaves);
+    f->leaf_count = count;
+    for (uint32_t i = 0; i < count; i++) {
+        struct frame_leaf *l = &f->leaves[i];
+        *l = all[items[i].index];
+        l->part = rank[l->part];
+        struct frame_part *part = &f->parts[l->part];
+        if (!part->count++)
+            part->first = i;
+        const struct solid *s = f->body->leaves[l->leaf].solid;
         if (s->planes.padded > f->planes_most)
             f->planes_most = s->planes.padded;
     }
-    f->leaves = all;
-    f->leaf_count = count;
-    f->part_count = part_count;
+    free(rank);
+    free(items);
+    free(spare);
 }
 
 // Fields that a leaf's rectangle touches.
@@ -264,12 +275,14 @@ void frame_init(struct frame *f, const struct body *body, const struct rays *ray
     uint32_t *part_of_leaf = mem_alloc((body->leaf_count + 1) * sizeof *part_of_leaf);
     struct frame_leaf *all = mem_alloc((body->leaf_count + 1) * sizeof *all);
     f->parts = mem_alloc(most * sizeof *f->parts);
-    f->bytes =
-        most * sizeof *f->parts + (body->leaf_count + 1) * (sizeof *all + sizeof *part_of_leaf);
-    uint32_t parts = find_parts(body, f->parts, part_of_leaf);
+    f->bytes = most * sizeof *f->parts +
+               (body->leaf_count + 1) *
+                   (2 * sizeof *all + sizeof *part_of_leaf + 2 * sizeof(struct sort_item));
+    f->part_count = find_parts(body, f->parts, part_of_leaf);
     struct projection p = {.f = f, .part_of_leaf = part_of_leaf, .out = all};
     parallel_for((body->leaf_count + CHUNK - 1) / CHUNK, settings->threads, project_chunk, &p);
-    sort_leaves(f, all, parts);
+    sort_leaves(f, all);
+    free(all);
     free(part_of_leaf);
     make_fields(f);
 }

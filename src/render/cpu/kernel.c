@@ -9,23 +9,51 @@
 #include <stdlib.h>
 #include <string.h>
 
+// What a worker has room for.
+static struct tile_room room_for(const struct kernel_job *job)
+{
+    const struct body *b = job->frame->body;
+    return (struct tile_room){.memory = job->memory,
+                              .planes = job->frame->planes_most,
+                              .leaves = b->leaf_count,
+                              .nodes = b->expr.node_count,
+                              .classes = b->sharing.class_count};
+}
+
 static void *worker_new(const struct kernel_job *job, uint32_t worker)
 {
     struct tile *t = mem_aligned(64, sizeof *t);
-    tile_init(t, job->frame, worker, job->memory);
-    t->lists = walk_new(t, job->memory);
-    if (job->image)
-        t->query = query_new(t);
+    tile_init(t, room_for(job), worker);
+    t->lists = walk_new(t->room);
+    t->query = query_new(t);
+    t->frame = job->frame;
     return t;
 }
 
-static void worker_delete(void *worker, struct kernel_totals *add_to)
+static bool worker_reuse(void *worker, const struct kernel_job *job)
 {
     struct tile *t = worker;
+    struct tile_room need = room_for(job), have = t->room;
+    if (need.memory != have.memory || need.planes > have.planes || need.leaves > have.leaves ||
+        need.nodes > have.nodes || need.classes > have.classes)
+        return false;
+    t->frame = job->frame;
+    t->fragments = t->misses = t->open_rays = 0;
+    return true;
+}
+
+static void worker_add(const void *worker, struct kernel_totals *add_to)
+{
+    const struct tile *t = worker;
     add_to->fragments += t->fragments;
     add_to->misses += t->misses;
     add_to->open_rays += t->open_rays;
-    add_to->bytes += t->bytes + t->leaf_capacity * sizeof *t->leaves;
+    add_to->bytes += tile_bytes(t) + walk_bytes(t->lists) + query_bytes(t->query);
+}
+
+static void worker_delete(void *worker)
+{
+    struct tile *t = worker;
     query_delete(t->query);
     walk_delete(t->lists);
     tile_free(t);
@@ -100,6 +128,15 @@ static v8f row_depth(const struct frame *f, v8f key)
     return key / (v8_set(1) - key * (float)(1 / f->t0)) + shift;
 }
 
+// Up to eight numbers; mostly all eight, which is one store.
+static void put_row(void *to, const void *from, int width)
+{
+    if (width == BLOCK)
+        memcpy(to, from, BLOCK * 4);
+    else
+        memcpy(to, from, (size_t)width * 4);
+}
+
 static void write_block(struct tile *t, const struct rays_at *s, struct surface_image *image)
 {
     const struct frame *f = t->frame;
@@ -129,49 +166,63 @@ static void write_block(struct tile *t, const struct rays_at *s, struct surface_
         }
         find_faces(t, s, owner, face);
     }
-    size_t width = (size_t)(t->x1 - t->bx < BLOCK ? t->x1 - t->bx : BLOCK);
+    int width = t->x1 - t->bx < BLOCK ? t->x1 - t->bx : BLOCK;
     int height = t->y1 - t->by < BLOCK ? t->y1 - t->by : BLOCK;
     for (int y = 0; y < height; y++) {
         size_t at = (size_t)(t->by + y) * (size_t)image->width + (size_t)t->bx;
         v8i nothing = leaf[y] == v8_seti((int32_t)SURFACE_NONE);
         v8f depth = v8_select(nothing, v8_set(INFINITY), row_depth(f, s->key[y]));
-        face[y] = v8_selecti(nothing, v8_seti((int32_t)SURFACE_CAP), face[y]);
-        memcpy(image->depth + at, &depth, width * sizeof(float));
-        memcpy(image->leaf + at, &leaf[y], width * sizeof(uint32_t));
-        memcpy(image->face + at, &face[y], width * sizeof(uint32_t));
+        put_row(image->depth + at, &depth, width);
+        put_row(image->leaf + at, &leaf[y], width);
+        put_row(image->face + at, &face[y], width);
     }
 }
 
-static void write_background(const struct tile *t, struct surface_image *image)
+static void clear(struct surface_image *image, struct pixel_rect r)
 {
-    for (int y = t->y0; y < t->y1; y++)
-        for (int x = t->x0; x < t->x1; x++) {
-            size_t at = (size_t)y * (size_t)image->width + (size_t)x;
-            image->depth[at] = INFINITY;
-            image->leaf[at] = SURFACE_NONE;
-            image->face[at] = SURFACE_CAP;
+    for (int y = r.y0; y < r.y1; y++) {
+        size_t at = (size_t)y * (size_t)image->width + (size_t)r.x0;
+        for (int x = 0; x < r.x1 - r.x0; x++) {
+            image->depth[at + (size_t)x] = INFINITY;
+            image->leaf[at + (size_t)x] = SURFACE_NONE;
         }
+    }
 }
 
-static void first_surface_tile(struct tile *t, struct surface_image *image)
+static bool any_surface(const struct rays_at *s)
+{
+    v8i some = v8_seti(0);
+    for (int y = 0; y < BLOCK; y++)
+        some |= s->key[y] < v8_set(FLT_MAX);
+    return v8_bits(some);
+}
+
+static void first_surface_tile(struct tile *t, const struct kernel_job *job)
 {
     struct rays_at s;
-    bool query = t->frame->settings->walk == WALK_AUTO;
-    if (!t->leaf_count) {
-        write_background(t, image);
-        return;
-    }
-    if (query)
+    bool query = t->frame->settings->walk == WALK_AUTO, any = false;
+    if (query && t->leaf_count)
         query_enter(t->query);
-    for (int y = t->y0; y < t->y1; y += BLOCK)
+    for (int y = t->y0; y < t->y1 && t->leaf_count; y += BLOCK)
         for (int x = t->x0; x < t->x1; x += BLOCK) {
             tile_block(t, x, y);
             if (query)
                 query_block(t->query, &s);
             else
                 walk_first(t, 0, t->leaf_count, &s);
-            write_block(t, &s, image);
+            if (any_surface(&s)) {
+                write_block(t, &s, job->image);
+                any = true;
+                continue;
+            }
+            clear(job->image, (struct pixel_rect){x, y, x + BLOCK < t->x1 ? x + BLOCK : t->x1,
+                                                  y + BLOCK < t->y1 ? y + BLOCK : t->y1});
         }
+    struct pixel_rect whole = {t->x0, t->y0, t->x1, t->y1};
+    if (!t->leaf_count)
+        clear(job->image, whole);
+    if (job->drawn)
+        job->drawn(job->context, whole, !any);
 }
 
 static void spans_tile(struct tile *t, const struct kernel_job *job)
@@ -194,7 +245,7 @@ static void tile(void *worker, const struct kernel_job *job, uint32_t tile_numbe
     struct tile *t = worker;
     tile_enter(t, tile_number);
     if (job->image)
-        first_surface_tile(t, job->image);
+        first_surface_tile(t, job);
     else
         spans_tile(t, job);
 }
@@ -203,4 +254,9 @@ static void tile(void *worker, const struct kernel_job *job, uint32_t tile_numbe
 #define TEXT_(x)   #x
 #define TEXT(x)    TEXT_(x)
 
-const struct kernel kernel_isa = {TEXT(ISA), worker_new, worker_delete, tile};
+const struct kernel kernel_isa = {.name = TEXT(ISA),
+                                  .worker_new = worker_new,
+                                  .worker_reuse = worker_reuse,
+                                  .worker_add = worker_add,
+                                  .worker_delete = worker_delete,
+                                  .tile = tile};

@@ -11,14 +11,18 @@ struct kernel_job {
     const struct frame *frame;
     size_t memory;               // for one worker
     struct surface_image *image; // first surface; NULL: spans
+    void (*drawn)(void *context, struct pixel_rect rect, bool nothing); // NULL: nobody asks
     void (*sink)(void *context, uint32_t worker, const struct span_block *block);
     void *context;
 };
 
+// A worker is kept from frame to frame: its pools are large.
 struct kernel {
     const char *name;
     void *(*worker_new)(const struct kernel_job *job, uint32_t worker);
-    void (*worker_delete)(void *worker, struct kernel_totals *add_to);
+    bool (*worker_reuse)(void *worker, const struct kernel_job *job);     // false: it is too small
+    void (*worker_add)(const void *worker, struct kernel_totals *add_to); // of this frame
+    void (*worker_delete)(void *worker);
     void (*tile)(void *worker, const struct kernel_job *job, uint32_t tile_number);
 };
 

@@ -57,13 +57,19 @@ struct query *query_new(struct tile *t)
 {
     struct query *q = mem_aligned(32, sizeof *q); // holds vectors
     *q = (struct query){0};
-    uint32_t n = t->frame->body->expr.node_count;
+    uint32_t n = t->room.nodes;
     q->t = t;
     q->node_of = mem_alloc((n + 1) * sizeof *q->node_of);
     for (uint32_t i = 0; i < n; i++)
         q->node_of[i] = NO_REF;
-    t->bytes += n * sizeof *q->node_of;
     return q;
+}
+
+size_t query_bytes(const struct query *q)
+{
+    return q->node_capacity * sizeof *q->nodes + q->link_capacity * sizeof *q->links +
+           q->kid_capacity * sizeof *q->kids + q->part_capacity * sizeof *q->parts +
+           q->t->room.nodes * sizeof *q->node_of;
 }
 
 void query_delete(struct query *q)

@@ -17,12 +17,14 @@ struct rays_at {
 };
 
 #define query_new    ISA_PASTE(query_new, ISA)
+#define query_bytes  ISA_PASTE(query_bytes, ISA)
 #define query_delete ISA_PASTE(query_delete, ISA)
 #define query_enter  ISA_PASTE(query_enter, ISA)
 #define query_block  ISA_PASTE(query_block, ISA)
 
 struct query;
 struct query *query_new(struct tile *t);
+size_t query_bytes(const struct query *q);
 void query_delete(struct query *q);
 
 // After tile_enter: prunes the expression of each part to the leaves that are in the tile.

@@ -12,11 +12,11 @@
 #define REACH     (0.5f * TILE) // pixels from the centre of the tile
 #define INLINE    static inline __attribute__((always_inline))
 
-void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t memory)
+void tile_init(struct tile *t, struct tile_room room, uint32_t worker)
 {
-    *t = (struct tile){.frame = f, .worker = worker};
-    uint32_t most = f->planes_most + 8;
-    size_t planes = memory / 8 / 44, slots = memory / 4 / sizeof(struct block_leaf);
+    *t = (struct tile){.worker = worker, .room = room};
+    uint32_t most = room.planes + 8;
+    size_t planes = room.memory / 8 / 44, slots = room.memory / 4 / sizeof(struct block_leaf);
     planes = planes < 4 * (size_t)most ? 4 * (size_t)most : planes;
     planes = planes > 1 << 16 ? (1 << 16 > 4 * most ? 1 << 16 : 4 * most) : planes;
     slots = slots < 16 ? 16 : slots > 2048 ? 2048 : slots;
@@ -39,7 +39,18 @@ void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t me
     t->list.b = mem_aligned(32, most * sizeof(float));
     t->list.c = mem_aligned(32, most * sizeof(float));
     t->list.id = mem_aligned(32, most * sizeof *t->list.id);
-    t->bytes = planes * 44 + slots * sizeof *t->slots + t->index_size * 8 + most * 56;
+}
+
+size_t tile_bytes(const struct tile *t)
+{
+    size_t plane = 5 * sizeof(float) + sizeof(struct plane_exact);
+    return t->planes.size * plane + t->slot_size * sizeof *t->slots +
+           t->index_size * (sizeof *t->index + sizeof *t->key) +
+           (t->room.planes + 8) * (8 * sizeof(float) + sizeof *t->exact) +
+           t->leaf_capacity * sizeof *t->leaves +
+           t->mesh.crossing_capacity * sizeof *t->mesh.crossings +
+           t->mesh.sorted_capacity * sizeof *t->mesh.sorted +
+           t->mesh.interval_capacity * sizeof *t->mesh.intervals;
 }
 
 void tile_free(struct tile *t)

@@ -15,6 +15,7 @@
 #define ISA_PASTE_(a, b) a##_##b
 #define ISA_PASTE(a, b)  ISA_PASTE_(a, b)
 #define tile_init        ISA_PASTE(tile_init, ISA)
+#define tile_bytes       ISA_PASTE(tile_bytes, ISA)
 #define tile_free        ISA_PASTE(tile_free, ISA)
 #define tile_enter       ISA_PASTE(tile_enter, ISA)
 #define tile_prepare     ISA_PASTE(tile_prepare, ISA)
@@ -105,9 +106,17 @@ struct mesh_pool {
     uint32_t interval_count, interval_capacity;
 };
 
+// What the pools were made for.
+struct tile_room {
+    size_t memory;   // budget of one worker
+    uint32_t planes; // of the largest convex solid
+    uint32_t leaves, nodes, classes;
+};
+
 struct tile {
-    const struct frame *frame;
+    const struct frame *frame; // of the picture being drawn
     uint32_t worker;
+    struct tile_room room;
     int x0, y0, x1, y1;                    // pixels [x0, x1) x [y0, y1)
     double cx, cy;                         // the centre, in pixel coordinates
     struct vec3 origin, direction, middle; // the ray there; middle is at t0
@@ -136,7 +145,6 @@ struct tile {
     struct query *query;
     struct walk_lists *lists;
     uint64_t fragments, misses, open_rays;
-    size_t bytes;
 };
 
 // Planes of the leaf over the whole tile, which tightens near and far; may find it absent.
@@ -145,7 +153,8 @@ void tile_prepare(struct tile *t, struct tile_leaf *l);
 // Pixels of a block from its middle: columns, and with [y] rows.
 #define BLOCK_STEPS ((v8f){-3.5f, -2.5f, -1.5f, -0.5f, 0.5f, 1.5f, 2.5f, 3.5f})
 
-void tile_init(struct tile *t, const struct frame *f, uint32_t worker, size_t memory);
+void tile_init(struct tile *t, struct tile_room room, uint32_t worker);
+size_t tile_bytes(const struct tile *t);
 void tile_free(struct tile *t);
 
 // Moves on to a tile: finds its leaves (parts front to back). `visible` limits them to one part or

@@ -2,6 +2,7 @@
 #include "render/cpu/walk.h"
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "render/cpu/query.h"
 
 #include <float.h>
@@ -13,6 +14,7 @@
 typedef uint64_t crossing;
 
 struct walk_lists {
+    struct tile_room room;
     crossing *items, *spare;
     uint32_t size; // of both
     uint32_t first[BLOCK_PIXELS + 1];
@@ -33,20 +35,26 @@ struct walk_lists {
     uint32_t span_count, span_capacity;
 };
 
-struct walk_lists *walk_new(struct tile *t, size_t memory)
+struct walk_lists *walk_new(struct tile_room room)
 {
-    const struct body *b = t->frame->body;
     struct walk_lists *w = mem_zalloc(sizeof *w);
-    size_t items = memory / 4 / sizeof(crossing);
+    size_t items = room.memory / 4 / sizeof(crossing);
     w->size = (uint32_t)(items < 256 ? 256 : items > 1 << 20 ? 1 << 20 : items);
     w->items = mem_alloc(w->size * sizeof *w->items);
     w->spare = mem_alloc(w->size * sizeof *w->spare);
-    w->count_of = mem_zalloc((b->sharing.class_count + 1) * sizeof *w->count_of);
-    w->inside = mem_zalloc((b->leaf_count + 1) * sizeof *w->inside);
-    w->solid = mem_zalloc(b->expr.node_count + 1);
-    t->bytes += w->size * 2 * sizeof(crossing) + b->sharing.class_count * 4 + b->leaf_count * 4 +
-                b->expr.node_count;
+    w->count_of = mem_zalloc((room.classes + 1) * sizeof *w->count_of);
+    w->inside = mem_zalloc((room.leaves + 1) * sizeof *w->inside);
+    w->solid = mem_zalloc(room.nodes + 1);
+    w->room = room;
     return w;
+}
+
+size_t walk_bytes(const struct walk_lists *w)
+{
+    return w->size * 2 * sizeof(crossing) + w->room.classes * sizeof *w->count_of +
+           w->room.leaves * sizeof *w->inside + w->room.nodes +
+           (w->member_capacity + w->base_capacity) * sizeof *w->members +
+           w->span_capacity * sizeof *w->spans;
 }
 
 void walk_delete(struct walk_lists *w)
@@ -66,19 +74,12 @@ void walk_delete(struct walk_lists *w)
 
 static crossing crossing_make(float key, uint32_t leaf, bool leaving)
 {
-    uint32_t bits;
-    memcpy(&bits, &key, 4);
-    bits = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
-    return (uint64_t)bits << 32 | leaf << 1 | leaving;
+    return (uint64_t)sort_number(key) << 32 | leaf << 1 | leaving;
 }
 
 static float crossing_key(crossing c)
 {
-    uint32_t bits = (uint32_t)(c >> 32);
-    float key;
-    bits = bits & 0x80000000u ? bits & 0x7fffffffu : ~bits;
-    memcpy(&key, &bits, 4);
-    return key;
+    return sort_float((uint32_t)(c >> 32));
 }
 
 static void sort(crossing *items, crossing *spare, uint32_t n)

@@ -13,10 +13,12 @@ struct walk_lists;
 
 #define walk_first  ISA_PASTE(walk_first, ISA)
 #define walk_new    ISA_PASTE(walk_new, ISA)
+#define walk_bytes  ISA_PASTE(walk_bytes, ISA)
 #define walk_delete ISA_PASTE(walk_delete, ISA)
 #define walk_block  ISA_PASTE(walk_block, ISA)
 
-struct walk_lists *walk_new(struct tile *t, size_t memory);
+struct walk_lists *walk_new(struct tile_room room);
+size_t walk_bytes(const struct walk_lists *w);
 void walk_delete(struct walk_lists *w);
 
 // First solid key of every ray of the block, with only the given leaves of the tile.
