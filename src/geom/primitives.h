@@ -13,10 +13,6 @@ enum { SPHERE_FRAGMENTS_MAX = 2000, CIRCLE_FRAGMENTS_MAX = 100000 };
 // Corners of a full circle of radius r; UINT32_MAX stands for everything above.
 uint32_t circle_fragments(double r, struct detail detail);
 
-// Sine and cosine of an angle in degrees, exact at multiples of 30 and 45.
-double sin_degrees(double x);
-double cos_degrees(double x);
-
 // The cube from (0, 0, 0) to (1, 1, 1).
 void primitive_cube(struct mesh *out);
 // The sphere of radius 1 with `n` corners around. It has flat caps, no poles, so it is lower

@@ -1,4 +1,5 @@
 // transforms.c - the matrices of translate, rotate, scale, mirror and multmatrix.
+#include "base/angle.h"
 #include "model/nodes.h"
 
 const struct parameters parameters_vector = {{"v"}, 1};

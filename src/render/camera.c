@@ -1,11 +1,13 @@
 // camera.c - OpenSCAD's camera: its numbers, its mouse, and the rays of a picture.
 #include "render/camera.h"
 
+#include "base/angle.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define RADIANS           (3.14159265358979323846 / 180)
+#define RADIANS           (M_PI / 180)
 #define DEGREES_PER_PIXEL 0.7
 #define ZOOM_STEP         0.9
 
@@ -14,28 +16,12 @@ struct view_axes {
     struct vec3 right, up, ahead;
 };
 
-// Exact at multiples of a quarter turn, so that the standard views look exactly along an axis.
-static double cos_degrees(double a)
-{
-    a = fmod(fabs(a), 360);
-    if (a == 90 || a == 270)
-        return 0;
-    return cos(a * RADIANS);
-}
-
-static double sin_degrees(double a)
-{
-    double turn = fmod(a, 360);
-    if (turn == 0 || turn == 180 || turn == -180)
-        return 0;
-    return sin(turn * RADIANS);
-}
-
 // OpenSCAD turns the model by z, then y, then x and looks along +y with z up; the axes are that
 // view's turned back into the model.
 static struct vec3 into_world(const struct camera *c, struct vec3 v)
 {
-    double ax = c->rotation.x - 90, ay = c->rotation.y, az = c->rotation.z;
+    double ax = fmod(c->rotation.x, 360) - 90, ay = fmod(c->rotation.y, 360);
+    double az = fmod(c->rotation.z, 360);
     double s = sin_degrees(ax), k = cos_degrees(ax);
     v = (struct vec3){v.x, k * v.y - s * v.z, s * v.y + k * v.z};
     s = sin_degrees(ay);

@@ -18,28 +18,6 @@ static void fragments_follow_the_three_rules(void **state)
     assert_int_equal(circle_fragments(1e300, (struct detail){0, 1e-300, 1e-300}), UINT32_MAX);
 }
 
-static void angles_are_exact(void **state)
-{
-    (void)state;
-    for (int turn = -720; turn <= 720; turn += 360) {
-        assert_true(sin_degrees(turn) == 0 && cos_degrees(turn) == 1);
-        assert_true(sin_degrees(turn + 30) == 0.5 && cos_degrees(turn + 60) == 0.5);
-        assert_true(sin_degrees(turn + 45) == M_SQRT1_2 && cos_degrees(turn + 45) == M_SQRT1_2);
-        assert_true(sin_degrees(turn + 90) == 1 && cos_degrees(turn + 90) == 0);
-        assert_true(sin_degrees(turn + 150) == 0.5 && cos_degrees(turn + 150) == -sqrt(0.75));
-        assert_true(sin_degrees(turn + 180) == 0 && cos_degrees(turn + 180) == -1);
-        assert_true(sin_degrees(turn + 210) == -0.5 && cos_degrees(turn + 240) == -0.5);
-        assert_true(sin_degrees(turn + 270) == -1 && cos_degrees(turn + 270) == 0);
-        assert_true(sin_degrees(turn + 330) == -0.5 && cos_degrees(turn + 300) == 0.5);
-    }
-    for (double x = -400; x < 800; x += 7.3) {
-        assert_close(sin_degrees(x), sin(x * M_PI / 180), 3e-15);
-        assert_close(cos_degrees(x), cos(x * M_PI / 180), 3e-15);
-    }
-    assert_true(isnan(sin_degrees(INFINITY)) && isnan(cos_degrees(NAN)));
-    assert_true(sin_degrees(-1e-20) <= 0 && cos_degrees(-1e-20) == 1);
-}
-
 // Closed, outward, and no plane cuts off a corner of the solid.
 static void check_solid(struct mesh *m, uint32_t faces)
 {
@@ -126,7 +104,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fragments_follow_the_three_rules),
-        cmocka_unit_test(angles_are_exact),
         cmocka_unit_test(cube_is_six_faces),
         cmocka_unit_test(spheres_have_no_poles),
         cmocka_unit_test(cylinders_and_cones),

@@ -1,6 +1,6 @@
 // test_sheet.c - matrices that press a shape flat.
+#include "base/angle.h"
 #include "base/hash.h"
-#include "geom/primitives.h"
 #include "model/sheet.h"
 #include "unit.h"
 
