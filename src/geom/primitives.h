@@ -7,8 +7,8 @@ struct detail { // $fn, $fa, $fs
 };
 #define DETAIL_DEFAULT ((struct detail){0, 12, 2})
 
-// Above these numbers of corners the faces are smaller than anything that could be shown.
-enum { SPHERE_FRAGMENTS_MAX = 2000, CIRCLE_FRAGMENTS_MAX = 100000 };
+// Above these numbers of corners the shape changes by less than the numbers of a file can say.
+enum { SPHERE_FRAGMENTS_MAX = 1000, CIRCLE_FRAGMENTS_MAX = 100000 };
 
 // Corners of a full circle of radius r; UINT32_MAX stands for everything above.
 uint32_t circle_fragments(double r, struct detail detail);

@@ -21,18 +21,22 @@ static bool read_points(struct builder *b, const struct args *args, struct mesh_
         builder_warn(b, args->node, "polyhedron() needs a vector of points; left out");
         return false;
     }
+    uint32_t bad = 0;
     for (uint32_t i = 0; i < points->count; i++) {
         struct csg_value hold;
         double p[3] = {0};
         if (!value_numbers(value_item(points, i, &hold), p, 2, 3) || !isfinite(p[0]) ||
             !isfinite(p[1]) || !isfinite(p[2])) {
-            messages_add(b->messages, MESSAGE_ERROR, builder_place(b, args->node),
-                         "polyhedron() point %u is not 2 or 3 finite numbers; it is at the origin",
-                         i);
+            if (++bad == 1)
+                builder_warn(
+                    b, args->node,
+                    "polyhedron() point %u is not 2 or 3 finite numbers; it is at the origin", i);
             p[0] = p[1] = p[2] = 0;
         }
         mesh_add_vertex(m, (struct vec3){p[0], p[1], p[2]});
     }
+    if (bad > 1)
+        builder_warn(b, args->node, "polyhedron() has %u such points", bad);
     return true;
 }
 

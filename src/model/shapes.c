@@ -21,9 +21,13 @@ static struct affine scaling(double x, double y, double z)
     return (struct affine){{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}}};
 }
 
-static bool drawable(double size)
+// Sizes that give a solid. Those of 0 and below draw nothing, as in OpenSCAD, without a word.
+static bool drawable(struct builder *b, const struct args *args, double x, double y, double z)
 {
-    return size > 0 && isfinite(size); // false for NaN
+    if (isfinite(x) && isfinite(y) && isfinite(z))
+        return x > 0 && y > 0 && z > 0;
+    builder_warn(b, args->node, "%s() has a size that is not finite; left out", args->node->name);
+    return false;
 }
 
 // The number of corners around, with the limits that OpenSCAD sets and one of ours.
@@ -37,7 +41,8 @@ static uint32_t corners_around(struct builder *b, const struct args *args, doubl
     }
     uint32_t n = circle_fragments(r, d);
     if (n > most) {
-        builder_warn(b, args->node, "%u corners around are too many; %u are drawn", n, most);
+        builder_warn(b, args->node, "%s() has too many corners around; %u are drawn",
+                     args->node->name, most);
         n = most;
     }
     return n;
@@ -51,7 +56,7 @@ const struct solid *shape_cube(struct builder *b, const struct args *args, struc
         s[1] = s[2] = s[0];
     else if (!value_numbers(size, s, 3, 3) && size)
         builder_warn(b, args->node, "cube() needs a number or 3 numbers as size; 1 is taken");
-    if (!drawable(s[0]) || !drawable(s[1]) || !drawable(s[2]))
+    if (!drawable(b, args, s[0], s[1], s[2]))
         return NULL;
     *out = scaling(s[0], s[1], s[2]);
     if (value_true(args->values[1]))
@@ -86,7 +91,7 @@ const struct solid *shape_sphere(struct builder *b, const struct args *args, str
 {
     double r = 1;
     radius_of(b, args, 0, 1, &r);
-    if (!drawable(r))
+    if (!drawable(b, args, r, r, r))
         return NULL;
     *out = scaling(r, r, r);
     uint32_t n = corners_around(b, args, r, SPHERE_FRAGMENTS_MAX);
@@ -108,8 +113,8 @@ const struct solid *shape_cylinder(struct builder *b, const struct args *args, s
         r2 = r1;
     radius_of(b, args, R1, D1, &r1);
     radius_of(b, args, R2, D2, &r2);
-    double r = fmax(r1, r2);
-    if (!drawable(h) || !(r1 >= 0 && r2 >= 0) || !drawable(r))
+    double r = fmax(r1, r2); // of one number and NaN it is the number
+    if (!drawable(b, args, h, r1 + r2, r) || r1 < 0 || r2 < 0)
         return NULL;
     *out = scaling(r, r, h);
     if (value_true(args->values[CENTER]))
