@@ -123,6 +123,10 @@ static bool check_output(const char *path, struct error *err)
         error_set(err, "no output; give -o FILE.png");
         return false;
     }
+    if (path && !*path) {
+        error_set(err, "--output: expected the name of a file, got ''");
+        return false;
+    }
     const char *extension = path ? file_extension(path) : "";
     if (*extension && strcasecmp(extension, "png") != 0) {
         error_set(err, "%s: only PNG pictures can be written, not .%s", path, extension);
@@ -139,6 +143,10 @@ static bool parse_request(struct request *out, int operands, char **argv, struct
                   operands ? "expected one input file, got %d; --help shows the options"
                            : "no input file; --help shows the options",
                   operands);
+        return false;
+    }
+    if (!*out->input) {
+        error_set(err, "expected the name of an input file, got ''");
         return false;
     }
     if (given.device && strcmp(given.device, "auto") != 0 && strcmp(given.device, "cpu") != 0) {
@@ -311,7 +319,8 @@ static void hold_standard_streams(void)
 int main(int argc, char **argv)
 {
     hold_standard_streams();
-    signal(SIGPIPE, SIG_IGN);
+    signal(SIGPIPE, SIG_IGN); // as errors of write, which are told and cleaned up
+    signal(SIGXFSZ, SIG_IGN);
     int operands = 0;
     struct error err;
     struct request request;

@@ -94,24 +94,30 @@ static int open_beside(const char *path, char *name, size_t size)
     return fd;
 }
 
-static bool write_beside(const char *path, const void *data, size_t size)
+// `old`: the file that is there, NULL without one; its mode stays.
+static bool write_beside(const char *path, const struct stat *old, const void *data, size_t size)
 {
-    size_t room = strlen(path) + 32;
+    char *real = realpath(path, NULL); // a link stays one
+    const char *target = real ? real : path;
+    size_t room = strlen(target) + 32;
     char *name = mem_alloc(room);
-    int fd = open_beside(path, name, room);
+    int fd = open_beside(target, name, room);
+    if (fd >= 0 && old)
+        (void)!fchmod(fd, old->st_mode & 0777); // some file systems have no modes
     bool ok = fd >= 0 && write_all(fd, data, size);
     int saved = errno;
     if (fd >= 0 && close(fd) != 0 && ok) {
         ok = false;
         saved = errno;
     }
-    if (ok && rename(name, path) != 0) {
+    if (ok && rename(name, target) != 0) {
         ok = false;
         saved = errno;
     }
     if (fd >= 0 && !ok)
         unlink(name);
     free(name);
+    free(real);
     errno = saved;
     return ok;
 }
@@ -132,12 +138,13 @@ bool file_write(const char *path, const void *data, size_t size, struct error *e
 {
     struct stat st;
     bool ok, standard = strcmp(path, "-") == 0;
+    bool exists = !standard && stat(path, &st) == 0;
     if (standard)
         ok = write_all(STDOUT_FILENO, data, size);
-    else if (stat(path, &st) == 0 && !S_ISREG(st.st_mode))
+    else if (exists && !S_ISREG(st.st_mode))
         ok = write_in_place(path, data, size);
     else
-        ok = write_beside(path, data, size);
+        ok = write_beside(path, exists ? &st : NULL, data, size);
     if (!ok)
         error_set(err, "%s: %s", standard ? "standard output" : path, strerror(errno));
     return ok;

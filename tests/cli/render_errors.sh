@@ -28,6 +28,8 @@ mkdir folder
 
 # Use
 expect 1 'no input file' -o out.png
+expect 1 'name of an input file' -o out.png ''
+expect 1 '--output: expected the name of a file' -o '' a.csg
 expect 1 'expected one input file, got 2' -o out.png a.csg a.csg
 expect 1 'no output; give -o' a.csg
 expect 1 'expected FILE after it' a.csg -o
@@ -58,6 +60,11 @@ if [ "$(id -u)" -ne 0 ]; then
     expect 1 'closed.csg: Permission denied' -o out.png closed.csg
 fi
 
+mkfifo slow
+(exec >slow && sleep 0.3 && cat a.csg) &
+"$render" --summary slow | grep -q '^Leaves: *1$' || fault 'slow: not read'
+wait
+
 # Output
 expect 2 'none/out.png: No such file' -o none/out.png a.csg
 expect 2 'folder: ' -o folder a.csg
@@ -73,6 +80,18 @@ if [ -w /dev/full ]; then
         [ "$(wc -l <stderr)" -eq 1 ] || fault "$arguments to a full disk: '$(cat stderr)'"
     done
 fi
+
+(ulimit -f 1 && expect 2 'large.png: File too large' --imgsize=4000,4000 -o large.png a.csg
+    exit $failed) || failed=1
+
+# A link stays one, and the mode of the file stays.
+echo old >private.png
+chmod 600 private.png
+ln -s private.png link.png
+"$render" -o link.png a.csg || fault 'link.png: not written'
+[ -L link.png ] && [ "$(stat -c %a private.png)" = 600 ] && [ "$(wc -c <private.png)" -gt 100 ] ||
+    fault 'link.png: not written through'
+rm -f link.png private.png
 
 # A failure keeps the picture that was there, and no temporary file stays.
 echo old >out.png
