@@ -84,39 +84,17 @@ static uint32_t leaf_around_start(struct tile *t, int ray)
 static void find_faces(struct tile *t, const struct rays_at *s, int32_t owner, v8i *face)
 {
     struct tile_leaf *l = &t->leaves[owner >> 1];
-    const struct block_leaf *b = tile_crossings(t, l);
-    bool leaving = owner & 1;
-    v8i left = v8_seti(0), mine[BLOCK];
-    for (int y = 0; y < BLOCK; y++) {
-        mine[y] = s->owner[y] == v8_seti(owner);
-        left |= mine[y];
-    }
-    if (b && !b->mesh) { // the plane whose key is the ray's
-        const struct plane_pool *pool = &t->planes;
-        const v8f steps = BLOCK_STEPS;
-        uint32_t from = leaving ? b->front : 0, to = leaving ? b->front + b->back : b->front;
-        for (uint32_t k = from; k < to; k++) {
-            uint32_t p = t->index[b->planes + k];
-            v8f row = t->key[b->planes + k] + pool->b[p] * steps, c = pool->c[p] * steps;
-            v8i number = v8_seti((int32_t)pool->face[p]);
-            for (int y = 0; y < BLOCK; y++) {
-                v8i same = mine[y] & (row + c[y] == s->key[y]);
-                face[y] = v8_selecti(same, number, face[y]);
-                mine[y] &= ~same;
-            }
+    struct block_leaf *b = tile_crossings(t, l);
+    const uint32_t *plane = b && !b->mesh ? tile_planes(t, b, owner & 1) : NULL;
+    for (int y = 0; y < BLOCK; y++)
+        for (int bits = v8_bits(s->owner[y] == v8_seti(owner)); bits; bits &= bits - 1) {
+            int x = __builtin_ctz((unsigned)bits);
+            uint32_t p = plane ? plane[y * BLOCK + x] : UINT32_MAX;
+            float steep;
+            face[y][x] = (int32_t)(p != UINT32_MAX ? t->planes.face[p]
+                                                   : tile_face(t, l, y * BLOCK + x, owner & 1,
+                                                               s->key[y][x], &steep));
         }
-        left = v8_seti(0);
-        for (int y = 0; y < BLOCK; y++)
-            left |= mine[y];
-    }
-    if (!v8_bits(left))
-        return;
-    for (int i = 0; i < BLOCK_PIXELS; i++) { // meshes, and keys taken over from a neighbour
-        float steep;
-        if (mine[i / BLOCK][i % BLOCK])
-            face[i / BLOCK][i % BLOCK] =
-                (int32_t)tile_face(t, l, i, leaving, s->key[i / BLOCK][i % BLOCK], &steep);
-    }
 }
 
 // depth - reference of a row of keys.

@@ -337,8 +337,7 @@ static void make_intervals(struct tile *t, const struct mesh_crossing *c, uint32
     t->open_rays += winding != 0; // what never closes is left out
 }
 
-const struct block_leaf *tile_mesh_block(struct tile *t, struct tile_leaf *l,
-                                         struct block_leaf *out)
+struct block_leaf *tile_mesh_block(struct tile *t, struct tile_leaf *l, struct block_leaf *out)
 {
     const struct frame *f = t->frame;
     const struct leaf *leaf = &f->body->leaves[l->leaf];

@@ -16,7 +16,7 @@ void tile_init(struct tile *t, struct tile_room room, uint32_t worker)
 {
     *t = (struct tile){.worker = worker, .room = room};
     uint32_t most = room.planes + 8;
-    size_t planes = room.memory / 8 / 44, slots = room.memory / 4 / sizeof(struct block_leaf);
+    size_t planes = room.memory / 8 / 52, slots = room.memory / 4 / sizeof(struct block_leaf);
     planes = planes < 4 * (size_t)most ? 4 * (size_t)most : planes;
     planes = planes > 1 << 16 ? (1 << 16 > 4 * most ? 1 << 16 : 4 * most) : planes;
     slots = slots < 16 ? 16 : slots > 2048 ? 2048 : slots;
@@ -25,6 +25,8 @@ void tile_init(struct tile *t, struct tile_room room, uint32_t worker)
     t->planes.b = mem_zalloc((planes + 8) * 4);
     t->planes.c = mem_zalloc((planes + 8) * 4);
     t->planes.steep = mem_zalloc((planes + 8) * 4);
+    t->planes.steep_x = mem_zalloc((planes + 8) * 4);
+    t->planes.steep_y = mem_zalloc((planes + 8) * 4);
     t->planes.face = mem_aligned(32, planes * 4);
     t->planes.exact = mem_alloc(planes * sizeof *t->planes.exact);
     t->exact = mem_alloc(most * sizeof *t->exact);
@@ -43,7 +45,7 @@ void tile_init(struct tile *t, struct tile_room room, uint32_t worker)
 
 size_t tile_bytes(const struct tile *t)
 {
-    size_t plane = 5 * sizeof(float) + sizeof(struct plane_exact);
+    size_t plane = 7 * sizeof(float) + sizeof(struct plane_exact);
     return t->planes.size * plane + t->slot_size * sizeof *t->slots +
            t->index_size * (sizeof *t->index + sizeof *t->key) +
            (t->room.planes + 8) * (8 * sizeof(float) + sizeof *t->exact) +
@@ -59,6 +61,8 @@ void tile_free(struct tile *t)
     free(t->planes.b);
     free(t->planes.c);
     free(t->planes.steep);
+    free(t->planes.steep_x);
+    free(t->planes.steep_y);
     free(t->planes.face);
     free(t->planes.exact);
     free(t->exact);
@@ -352,19 +356,28 @@ INLINE void cull_planes(struct plane_list *out, const struct plane_source *s, fl
     }
 }
 
-// |n . direction| of planes at the centre of the tile, for unit normals: the slope of the key tells
-// how the plane leans against the ray.
-INLINE v8f steepness(const struct tile *t, v8f a, v8f b, v8f c)
+// n . direction of planes over the tile, for unit normals: the slope of the key tells how the plane
+// leans against the ray. An affine function of the pixel, written to the pool from `at` on.
+INLINE void put_steepness(struct tile *t, uint32_t at, v8f a, v8f b, v8f c)
 {
-    v8f one = v8_set(1), scale = v8_set(t->slope);
-    if (!t->frame->rays->orthographic)
-        scale = scale / (v8_set((float)t->frame->t0) - a);
+    v8f one = v8_set(1), zero = v8_set(0), root, per_pixel = zero;
+    v8f scale = v8_set(t->slope);
+    if (!t->frame->rays->orthographic) {
+        per_pixel = one / (v8_set((float)t->frame->t0) - a);
+        scale = scale * per_pixel;
+    }
     v8f gx = b * scale, gy = c * scale;
     v8f along = one + gx * t->lean_x + gy * t->lean_y;
-    v8f squared = gx * gx + gy * gy + along * along, root;
+    v8f squared = gx * gx + gy * gy + along * along;
     for (int i = 0; i < 8; i++)
         root[i] = sqrtf(squared[i]);
-    return one / root;
+    v8f steep = one / root;
+    v8f x = -(b * per_pixel) * steep, y = -(c * per_pixel) * steep;
+    x = v8_select(v8_abs(x) < v8_set(KEY_LIMIT), x, zero); // a plane along the middle ray
+    y = v8_select(v8_abs(y) < v8_set(KEY_LIMIT), y, zero);
+    memcpy(t->planes.steep + at, &steep, sizeof steep);
+    memcpy(t->planes.steep_x + at, &x, sizeof x);
+    memcpy(t->planes.steep_y + at, &y, sizeof y);
 }
 
 // Culls the planes of one side over the tile and appends them to the pool. Returns the bound of the
@@ -388,11 +401,10 @@ static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t eno
         a *= flip;
         b *= flip;
         c *= flip;
-        v8f steep = steepness(t, a, b, c);
+        put_steepness(t, pool->used + i, a, b, c);
         memcpy(pool->a + pool->used + i, &a, sizeof a);
         memcpy(pool->b + pool->used + i, &b, sizeof b);
         memcpy(pool->c + pool->used + i, &c, sizeof c);
-        memcpy(pool->steep + pool->used + i, &steep, sizeof steep);
     }
     memcpy(pool->face + pool->used, list.id, list.n * sizeof *pool->face);
     for (uint32_t i = 0; i < list.n; i++)
@@ -437,16 +449,6 @@ void tile_prepare(struct tile *t, struct tile_leaf *l)
     l->state = l->near < l->far ? LEAF_READY : LEAF_ABSENT;
 }
 
-// How the steepness of a plane at pixel (x, y) differs from that at the centre of the tile: a
-// factor that is an affine function of the pixel, 1 in orthographic views.
-static float steep_factor(const struct tile *t, uint32_t plane, float x, float y)
-{
-    const struct plane_pool *pool = &t->planes;
-    return t->frame->rays->orthographic ? 1
-                                        : 1 - (pool->b[plane] * x + pool->c[plane] * y) /
-                                                  ((float)t->frame->t0 - pool->a[plane]);
-}
-
 // Smallest steepness in the block of the planes that remain: bounds how far apart on the ray two
 // faces can be that are within epsilon of each other.
 static float find_band(const struct tile *t, const struct block_leaf *out)
@@ -456,12 +458,9 @@ static float find_band(const struct tile *t, const struct block_leaf *out)
     float least = FLT_MAX;
     for (uint32_t i = 0; i < out->front + out->back; i++) {
         uint32_t p = t->index[out->planes + i];
-        float steep = pool->steep[p];
-        if (!f->rays->orthographic) {
-            float range = (fabsf(pool->b[p]) + fabsf(pool->c[p])) * (0.5f * BLOCK) /
-                          fabsf((float)f->t0 - pool->a[p]);
-            steep *= fabsf(steep_factor(t, p, t->mx, t->my)) - range;
-        }
+        float x = pool->steep_x[p], y = pool->steep_y[p];
+        float steep =
+            fabsf(pool->steep[p] + x * t->mx + y * t->my) - (fabsf(x) + fabsf(y)) * (0.5f * BLOCK);
         least = steep < least ? steep : least;
     }
     // d key / d t = (t0 / t)^2 = (1 - key / t0)^2 is largest at the near end
@@ -505,8 +504,7 @@ static bool block_misses(const struct tile *t, const uint32_t *index, const floa
     return false;
 }
 
-static const struct block_leaf *convex_block(struct tile *t, struct tile_leaf *l,
-                                             struct block_leaf *out)
+static struct block_leaf *convex_block(struct tile *t, struct tile_leaf *l, struct block_leaf *out)
 {
     const struct plane_pool *pool = &t->planes;
     uint32_t *index = t->index + t->index_used;
@@ -551,6 +549,7 @@ static const struct block_leaf *convex_block(struct tile *t, struct tile_leaf *l
     if (!(out->near < out->far))
         return NULL;
     out->mesh = false;
+    out->known[0] = out->known[1] = false;
     out->front = front;
     out->back = back;
     out->planes = t->index_used;
@@ -559,7 +558,7 @@ static const struct block_leaf *convex_block(struct tile *t, struct tile_leaf *l
     return out;
 }
 
-const struct block_leaf *tile_crossings(struct tile *t, struct tile_leaf *l)
+struct block_leaf *tile_crossings(struct tile *t, struct tile_leaf *l)
 {
     if (l->state == LEAF_ABSENT)
         return NULL;
@@ -581,51 +580,71 @@ const struct block_leaf *tile_crossings(struct tile *t, struct tile_leaf *l)
     }
     struct block_leaf *out = &t->slots[t->slot_count];
     bool convex = t->frame->body->leaves[l->leaf].solid->convex;
-    const struct block_leaf *b = convex ? convex_block(t, l, out) : tile_mesh_block(t, l, out);
+    struct block_leaf *b = convex ? convex_block(t, l, out) : tile_mesh_block(t, l, out);
     l->serial = t->serial;
     l->slot = b ? t->slot_count++ : SLOT_ABSENT;
     l->band = b ? b->band : 0;
     return b;
 }
 
+const uint32_t *tile_planes(const struct tile *t, struct block_leaf *b, bool leaving)
+{
+    if (b->known[leaving])
+        return b->plane[leaving];
+    const struct plane_pool *pool = &t->planes;
+    const v8f *key = (const v8f *)(leaving ? b->leave : b->enter), steps = BLOCK_STEPS;
+    uint32_t from = leaving ? b->front : 0, to = leaving ? b->front + b->back : b->front;
+    v8i plane[BLOCK];
+    for (int y = 0; y < BLOCK; y++)
+        plane[y] = v8_seti(-1);
+    for (uint32_t k = from; k < to; k++) {
+        uint32_t p = t->index[b->planes + k];
+        v8f row = t->key[b->planes + k] + pool->b[p] * steps, c = pool->c[p] * steps;
+        for (int y = 0; y < BLOCK; y++)
+            plane[y] = v8_selecti(row + c[y] == key[y], v8_seti((int32_t)p), plane[y]);
+    }
+    memcpy(b->plane[leaving], plane, sizeof plane);
+    b->known[leaving] = true;
+    return b->plane[leaving];
+}
+
+// The interval of a mesh on a ray whose end is nearest to a key; NULL when the ray has none.
+static const struct mesh_interval *
+nearest_interval(const struct tile *t, const struct block_leaf *b, int ray, bool leaving, float key)
+{
+    const struct mesh_interval *m = t->mesh.intervals + b->interval, *found = NULL;
+    float nearest = FLT_MAX; // a key may have been taken over from a face within epsilon
+    for (uint32_t k = b->first[ray]; k < b->first[ray + 1]; k++) {
+        float away = fabsf((leaving ? m[k].leave : m[k].enter) - key);
+        if (away < nearest) {
+            nearest = away;
+            found = &m[k];
+        }
+    }
+    return found;
+}
+
 uint32_t tile_face(struct tile *t, struct tile_leaf *l, int i, bool leaving, float key,
                    float *steep)
 {
-    const struct block_leaf *b = tile_crossings(t, l);
+    struct block_leaf *b = tile_crossings(t, l);
     *steep = 1;
     if (!b || key <= t->frame->start)
         return SURFACE_CAP;
-    float nearest = FLT_MAX; // a key may have been taken over from a face within epsilon
-    uint32_t found = UINT32_MAX;
     if (b->mesh) {
-        const struct mesh_interval *m = t->mesh.intervals + b->interval;
-        for (uint32_t k = b->first[i]; k < b->first[i + 1]; k++) {
-            float away = fabsf((leaving ? m[k].leave : m[k].enter) - key);
-            if (away < nearest) {
-                nearest = away;
-                found = k;
-            }
-        }
-        if (found == UINT32_MAX)
+        const struct mesh_interval *m = nearest_interval(t, b, i, leaving, key);
+        if (!m)
             return SURFACE_CAP;
-        *steep = leaving ? m[found].leave_steep : m[found].enter_steep;
-        return leaving ? m[found].leave_face : m[found].enter_face;
+        *steep = leaving ? m->leave_steep : m->enter_steep;
+        return leaving ? m->leave_face : m->enter_face;
     }
     const struct plane_pool *pool = &t->planes;
-    uint32_t from = leaving ? b->front : 0, to = leaving ? b->front + b->back : b->front;
-    float x = BLOCK_STEPS[i % BLOCK], y = BLOCK_STEPS[i / BLOCK];
-    for (uint32_t k = from; k < to; k++) {
-        uint32_t p = t->index[b->planes + k];
-        float away = fabsf((t->key[b->planes + k] + pool->b[p] * x) + pool->c[p] * y - key);
-        if (away < nearest) {
-            nearest = away;
-            found = p;
-        }
-    }
-    if (found == UINT32_MAX)
+    uint32_t p = tile_planes(t, b, leaving)[i];
+    if (p == UINT32_MAX)
         return SURFACE_CAP;
-    *steep = fabsf(pool->steep[found] * steep_factor(t, found, t->mx + x, t->my + y));
-    return pool->face[found];
+    float x = t->mx + BLOCK_STEPS[i % BLOCK], y = t->my + BLOCK_STEPS[i / BLOCK];
+    *steep = fabsf(pool->steep[p] + pool->steep_x[p] * x + pool->steep_y[p] * y);
+    return pool->face[p];
 }
 
 double tile_thickness(const struct tile *t, float from, float to, float steep)

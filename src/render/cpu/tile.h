@@ -21,6 +21,7 @@
 #define tile_prepare     ISA_PASTE(tile_prepare, ISA)
 #define tile_block       ISA_PASTE(tile_block, ISA)
 #define tile_crossings   ISA_PASTE(tile_crossings, ISA)
+#define tile_planes      ISA_PASTE(tile_planes, ISA)
 #define tile_face        ISA_PASTE(tile_face, ISA)
 #define tile_thickness   ISA_PASTE(tile_thickness, ISA)
 #define tile_mesh_block  ISA_PASTE(tile_mesh_block, ISA)
@@ -58,7 +59,8 @@ struct plane_exact {
 struct plane_pool {
     float *a, *b, *c;
     struct plane_exact *exact;
-    float *steep; // |n . direction| at the centre of the tile: thickness across the face per depth
+    // n . direction, thickness across the face per depth: steep + steep_x x + steep_y y
+    float *steep, *steep_x, *steep_y;
     uint32_t *face;
     uint32_t used, size;
 };
@@ -87,8 +89,13 @@ struct block_leaf {
     bool mesh;
     uint32_t front, back; // planes that remain in this block, see tile_face
     uint32_t planes;      // in the index pool: front then back, numbers in the plane pool
-    uint32_t first[BLOCK_PIXELS + 1];
-    uint32_t interval; // in the interval pool of the tile: intervals[interval + first[i]]
+    uint32_t interval;    // of a mesh: intervals[interval + first[i]] of the tile's pool is the
+                          // first one of ray i
+    bool known[2];        // planes of the entries, of the exits are found
+    union {
+        uint32_t first[BLOCK_PIXELS + 1]; // mesh
+        uint32_t plane[2][BLOCK_PIXELS];  // convex: in the plane pool; UINT32_MAX: none
+    };
 };
 
 // A crossing of a ray of the block with a triangle.
@@ -165,7 +172,10 @@ void tile_block(struct tile *t, int x, int y);
 
 // The crossings of a leaf with the current block; NULL when no ray meets it. Valid until the next
 // call.
-const struct block_leaf *tile_crossings(struct tile *t, struct tile_leaf *l);
+struct block_leaf *tile_crossings(struct tile *t, struct tile_leaf *l);
+
+// The planes by which the rays enter (or leave) a convex leaf, numbers in the plane pool.
+const uint32_t *tile_planes(const struct tile *t, struct block_leaf *b, bool leaving);
 
 // Which face the ray of pixel i enters (or leaves) a leaf by at `key`, and how steep the ray meets
 // it. SURFACE_CAP when the key is the start of the ray.
@@ -176,5 +186,4 @@ uint32_t tile_face(struct tile *t, struct tile_leaf *l, int i, bool leaving, flo
 double tile_thickness(const struct tile *t, float from, float to, float steep);
 
 // mesh.c: the crossings of a mesh with the current block, or NULL.
-const struct block_leaf *tile_mesh_block(struct tile *t, struct tile_leaf *l,
-                                         struct block_leaf *out);
+struct block_leaf *tile_mesh_block(struct tile *t, struct tile_leaf *l, struct block_leaf *out);

@@ -16,8 +16,9 @@ typedef uint64_t crossing;
 struct walk_lists {
     struct tile_room room;
     crossing *items, *spare;
-    uint32_t size; // of both
-    uint32_t first[BLOCK_PIXELS + 1];
+    uint32_t size;  // of both
+    crossing *rest; // a list without some crossings
+    uint32_t rest_capacity;
 
     // evaluation of unknown combinations
     uint32_t *count_of; // per class, all 0 between uses
@@ -53,6 +54,7 @@ size_t walk_bytes(const struct walk_lists *w)
 {
     return w->size * 2 * sizeof(crossing) + w->room.classes * sizeof *w->count_of +
            w->room.leaves * sizeof *w->inside + w->room.nodes +
+           w->rest_capacity * sizeof(crossing) +
            (w->member_capacity + w->base_capacity) * sizeof *w->members +
            w->span_capacity * sizeof *w->spans;
 }
@@ -63,6 +65,7 @@ void walk_delete(struct walk_lists *w)
         return;
     free(w->items);
     free(w->spare);
+    free(w->rest);
     free(w->count_of);
     free(w->members);
     free(w->base);
@@ -236,7 +239,10 @@ static struct boundary boundary_at(struct ray_walk *r, crossing c)
 
 static float span_depth(const struct tile *t, float key)
 {
-    return (float)(frame_depth(t->frame, key) - t->frame->rays->reference);
+    const struct frame *f = t->frame;
+    if (!f->rays->orthographic)
+        key = key / (1 - key * (float)(1 / f->t0));
+    return key + (float)(f->t0 - f->rays->reference);
 }
 
 static void add_span(struct tile *t, struct boundary enter, struct boundary leave)
@@ -273,8 +279,10 @@ static bool is_solid(struct ray_walk *r, const crossing *items, uint32_t n)
 // to), or (alone) with no other crossing of the cluster than c?
 static bool solid_if(struct ray_walk *r, uint32_t from, uint32_t to, uint32_t c, bool alone)
 {
-    crossing *rest = r->t->lists->spare;
+    struct walk_lists *w = r->t->lists;
     uint32_t n = from;
+    array_reserve(&w->rest, &w->rest_capacity, to);
+    crossing *rest = w->rest;
     memcpy(rest, r->items, from * sizeof *rest);
     for (uint32_t i = from; i < to; i++) {
         if ((i == c) == alone)
@@ -405,8 +413,10 @@ static uint64_t count_crossings(struct tile *t, struct leaf_range leaves, uint32
     return sum;
 }
 
-// Writes the crossings of rays [from, to) to their places next[p - from].
-static void fill_lists(struct tile *t, struct leaf_range leaves, int from, int to, uint32_t *next)
+// Writes the crossings of rays [from, to) to their places: entries from in[p] on, exits from out[p]
+// on. Leaves come front to back, so both are nearly in order.
+static void fill_lists(struct tile *t, struct leaf_range leaves, int from, int to, uint32_t *in,
+                       uint32_t *out)
 {
     crossing *items = t->lists->items;
     for (uint32_t i = 0; i < leaves.count; i++) {
@@ -418,17 +428,29 @@ static void fill_lists(struct tile *t, struct leaf_range leaves, int from, int t
             if (!b->mesh) {
                 if (!(b->enter[p] < b->leave[p]))
                     continue;
-                items[next[p]++] = crossing_make(b->enter[p], l, false);
-                items[next[p]++] = crossing_make(b->leave[p], l, true);
+                items[in[p]++] = crossing_make(b->enter[p], l, false);
+                items[out[p]++] = crossing_make(b->leave[p], l, true);
                 continue;
             }
             for (uint32_t k = b->first[p]; k < b->first[p + 1]; k++) {
                 const struct mesh_interval *m = &t->mesh.intervals[b->interval + k];
-                items[next[p]++] = crossing_make(m->enter, l, false);
-                items[next[p]++] = crossing_make(m->leave, l, true);
+                items[in[p]++] = crossing_make(m->enter, l, false);
+                items[out[p]++] = crossing_make(m->leave, l, true);
             }
         }
     }
+}
+
+// Sorts the entries items[0 .. n / 2) and the exits behind them and merges the two into `spare`.
+static const crossing *merge_halves(crossing *items, crossing *spare, uint32_t n)
+{
+    uint32_t half = n / 2, i = 0, j = half, k = 0;
+    sort(items, spare, half);
+    sort(items + half, spare, half);
+    while (i < half)
+        spare[k++] = j < n && items[j] < items[i] ? items[j++] : items[i++];
+    memcpy(spare + k, items + j, (n - j) * sizeof *spare);
+    return spare;
 }
 
 static void keep_nearest(struct walk_lists *w, uint32_t *n, crossing *ceiling)
@@ -528,8 +550,7 @@ static void walk_ray(struct tile *t, struct leaf_range leaves, int p, crossing *
     if (passes) {
         walk_in_passes(&r, leaves);
     } else {
-        sort(items, t->lists->spare, count);
-        r.items = items;
+        r.items = merge_halves(items, t->lists->spare, count);
         r.count = count;
         walk_list(&r, false, &over);
     }
@@ -545,19 +566,19 @@ static void walk_rays(struct tile *t, struct leaf_range leaves, int from, int to
                       const uint32_t *counts, const struct block_walk *bw, uint32_t *span_first)
 {
     struct walk_lists *w = t->lists;
-    uint32_t next[BLOCK_PIXELS], start = 0;
+    uint32_t in[BLOCK_PIXELS], out[BLOCK_PIXELS], start = 0;
     bool passes = to - from == 1 && counts[from] > w->size;
     for (int p = from; p < to; p++) {
-        next[p] = start;
+        in[p] = start;
+        out[p] = start + counts[p] / 2;
         start += counts[p];
     }
     if (!passes)
-        fill_lists(t, leaves, from, to, next);
+        fill_lists(t, leaves, from, to, in, out);
     for (int p = from; p < to; p++) {
         if (span_first)
             span_first[p - from] = w->span_count;
-        walk_ray(t, leaves, p, w->items + (passes ? 0 : next[p] - counts[p]), counts[p], passes,
-                 bw);
+        walk_ray(t, leaves, p, w->items + (passes ? 0 : out[p] - counts[p]), counts[p], passes, bw);
     }
     if (span_first)
         span_first[to - from] = w->span_count;
