@@ -236,7 +236,7 @@ void drawn_depth(struct drawn *d, uint32_t leaf)
     bind(d->buffers[0], d->buffers[1]);
     glVertexPointer(3, GL_FLOAT, sizeof(struct vertex), NULL);
     glDrawElements(GL_TRIANGLES, r->count, GL_UNSIGNED_INT,
-                   (const char *)NULL + (size_t)r->first_index * sizeof(uint32_t));
+                   (const void *)((size_t)r->first_index * sizeof(uint32_t)));
     bind(0, 0);
 }
 
@@ -259,7 +259,7 @@ void drawn_colour(struct drawn *d, uint32_t leaf, enum drawn_sides sides)
     glVertexPointer(3, GL_FLOAT, sizeof(struct lit_vertex), NULL);
     glEnableClientState(GL_NORMAL_ARRAY);
     glNormalPointer(GL_FLOAT, sizeof(struct lit_vertex),
-                    (const char *)NULL + offsetof(struct lit_vertex, normal));
+                    (const void *)offsetof(struct lit_vertex, normal));
     glDrawArrays(GL_TRIANGLES, r->first_index, r->count);
     glDisableClientState(GL_NORMAL_ARRAY);
     bind(0, 0);

@@ -28,7 +28,7 @@ static void fit(const struct pace *p, double *fixed, double *each)
 
 int pace_divisor(const struct pace *p, int width, int height, double most)
 {
-    if (!p->weight)
+    if (p->weight == 0)
         return 1;
     double fixed, each, pixels = (double)width * height;
     fit(p, &fixed, &each);

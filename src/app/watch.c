@@ -80,7 +80,7 @@ static void on_settled(uv_timer_t *timer)
 static void notice(struct watch *w)
 {
     double now = clock_seconds();
-    if (!w->noticed)
+    if (w->noticed == 0)
         w->noticed = now;
     double left = w->noticed + SETTLE_MOST_MS * 1e-3 - now;
     uint64_t wait = left > SETTLE_MS * 1e-3 ? SETTLE_MS : 0;
@@ -125,7 +125,7 @@ static void on_look(uv_timer_t *timer)
         if (!same_folder(&now, &w->folders[i]->stamp))
             arm(w->folders[i]);
     }
-    for (uint32_t i = 0; i < w->target_count && !w->noticed; i++) {
+    for (uint32_t i = 0; i < w->target_count && w->noticed == 0; i++) {
         struct stamp now = stamp_of(w->targets[i].path);
         if (!same_stamp(&now, &w->targets[i].stamp))
             notice(w);

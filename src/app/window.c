@@ -230,7 +230,7 @@ void window_paint(struct window *w)
         return;
     if (size[0] != w->written_width) {
         w->written_width = size[0];
-        for (int i = 0; i < WINDOW_TEXTS; i++)
+        for (enum window_text i = 0; i < WINDOW_TEXTS; i++)
             write_text(w, i, size[0]);
     }
     glViewport(0, 0, size[0], size[1]);
@@ -244,7 +244,7 @@ void window_paint(struct window *w)
         paint(w, &w->picture, 0, size, 0, 0, size[0], size[1]);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    for (int i = 0; i < WINDOW_TEXTS; i++)
+    for (enum window_text i = 0; i < WINDOW_TEXTS; i++)
         paint_text(w, i, size);
     glfwSwapBuffers(w->handle);
 }

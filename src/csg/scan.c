@@ -75,13 +75,20 @@ double csg_scan_number(struct csg_parser *p, const char *text, const char **end)
     return value;
 }
 
+// -1 for what is none.
+static int hex_digit(char c)
+{
+    return is_digit(c)            ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
 double csg_scan_hex(const char *text)
 {
     double value = 0;
-    for (text += 2; isxdigit((unsigned char)*text); text++) {
-        int c = tolower((unsigned char)*text);
-        value = value * 16 + (c <= '9' ? c - '0' : c - 'a' + 10);
-    }
+    for (text += 2; hex_digit(*text) >= 0; text++)
+        value = value * 16 + hex_digit(*text);
     return value;
 }
 
@@ -225,10 +232,10 @@ static bool hex_escape(const char *s, int digits, uint32_t *c)
 {
     *c = 0;
     for (int i = 0; i < digits; i++) {
-        if (!isxdigit((unsigned char)s[i]))
+        int digit = hex_digit(s[i]);
+        if (digit < 0)
             return false;
-        int low = tolower((unsigned char)s[i]);
-        *c = *c << 4 | (uint32_t)(low <= '9' ? low - '0' : low - 'a' + 10);
+        *c = *c << 4 | (uint32_t)digit;
     }
     return true;
 }

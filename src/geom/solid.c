@@ -54,8 +54,7 @@ static void planes_build(struct planes *p, const struct mesh *m, struct box boun
     planes_alloc(p, m->face_count);
     for (uint32_t f = 0; f < m->face_count; f++) {
         double area = vec3_length(sum[f]);
-        bool flat =
-            area > 1e-300; // else the face is a needle: a side of the bounding box cuts nothing
+        bool flat = area > 1e-300; // else a needle: a side of the bounding box cuts nothing
         struct vec3 n = flat ? vec3_scale(sum[f], 1 / area) : (struct vec3){0, 0, 1};
         planes_set(p, f, n, flat ? -INFINITY : bounds.max.z);
     }

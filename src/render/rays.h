@@ -1,8 +1,8 @@
 // rays.h - the rays of a picture.
 //
 // Pixel (x, y), counted from the upper left, looks along origin + depth * direction with
-//   perspective:  origin,                                direction = forward + x * step_x + y *
-//   step_y orthographic: origin + x * step_x + y * step_y,      direction = forward
+//   perspective:   origin, direction forward + x * step_x + y * step_y
+//   orthographic:  origin + x * step_x + y * step_y, direction forward
 // where origin/forward are those of the centre of pixel (0, 0): half a pixel is already added.
 // forward's component along the view axis is 1, so depth is the distance from the eye plane in mm,
 // the same for all pixels: what OpenSCAD's z-buffer sorts by.
