@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "scad/includes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -158,17 +159,6 @@ void scad_error(const struct scad_result *r, struct error *err)
     free(file);
 }
 
-static void add_file(struct scad_result *out, uint32_t *capacity, char *file)
-{
-    for (uint32_t i = 0; i < out->file_count; i++)
-        if (strcmp(out->files[i], file) == 0) {
-            free(file);
-            return;
-        }
-    array_reserve(&out->files, capacity, out->file_count + 1);
-    out->files[out->file_count++] = file;
-}
-
 // One line of the rule: a tab, the name with its blanks escaped, and " \" unless it is the last.
 static char *file_of_rule(const char *line, size_t length)
 {
@@ -194,14 +184,15 @@ void scad_read_files(const char *rule_path, const char *path, struct scad_result
     uint32_t capacity = out->file_count;
     char *rule = NULL;
     size_t size, length;
-    add_file(out, &capacity, mem_strdup(path));
-    if (rule_path && file_read(rule_path, RULE_LIMIT, &rule, &size, NULL)) {
+    scad_add_file(out, &capacity, mem_strdup(path));
+    bool ruled = rule_path && file_read(rule_path, RULE_LIMIT, &rule, &size, NULL);
+    if (ruled) {
         const char *rest = rule;
         next_line(&rest, &length); // the target
         for (const char *line; (line = next_line(&rest, &length));) {
             char *file = file_of_rule(line, length);
             if (file)
-                add_file(out, &capacity, file);
+                scad_add_file(out, &capacity, file);
         }
         free(rule);
     }
@@ -211,7 +202,10 @@ void scad_read_files(const char *rule_path, const char *path, struct scad_result
         if (begins(line, length, "ERROR:") && find_place(line, length, &at, &name, &name_length)) {
             char *file = find_file(out, line + name, name_length);
             if (file)
-                add_file(out, &capacity, file);
+                scad_add_file(out, &capacity, file);
         }
     }
+    if (!ruled || strstr(out->log, "\nWARNING: Can't open ") ||
+        begins(out->log, strlen(out->log), "WARNING: Can't open "))
+        scad_add_includes(out, &capacity);
 }

@@ -196,7 +196,8 @@ struct scad_job *scad_start(struct uv_loop_s *loop, const char *path, const char
         job->open_handles = 2; // also a process that never ran is a handle to close
         if (failed) {
             error_set(&job->failure,
-                      "%s: %s (install openscad, or name it with --openscad or $OPENSCAD)",
+                      "%s: %s; .scad files need openscad: install it, or set $OPENSCAD to where "
+                      "it is",
                       job->program, uv_strerror(failed));
             uv_close((uv_handle_t *)&job->process, on_closed);
         }
@@ -217,11 +218,23 @@ void scad_cancel(struct scad_job *job)
         uv_close((uv_handle_t *)&job->messages, on_closed);
 }
 
+enum { SIGNALS = 3 };
+
 struct waiting {
     struct scad_result *out;
     struct error *err;
     bool ok;
+    struct scad_job *job; // NULL once it is done or cancelled
+    uv_signal_t signals[SIGNALS];
+    int signal; // that came
 };
+
+static void stop_waiting(struct waiting *w)
+{
+    w->job = NULL;
+    for (int i = 0; i < SIGNALS; i++)
+        uv_close((uv_handle_t *)&w->signals[i], NULL);
+}
 
 static void on_done(void *context, struct scad_result *result, const struct error *err)
 {
@@ -230,6 +243,30 @@ static void on_done(void *context, struct scad_result *result, const struct erro
     w->ok = !err;
     if (err && w->err)
         *w->err = *err;
+    stop_waiting(w);
+}
+
+static void on_signal(uv_signal_t *handle, int number)
+{
+    struct waiting *w = handle->data;
+    if (!w->job)
+        return;
+    w->signal = number;
+    scad_cancel(w->job);
+    stop_waiting(w);
+}
+
+// The child is in a session of its own: what is typed at the terminal does not reach it.
+static void listen_to_signals(struct waiting *w, uv_loop_t *loop)
+{
+    static const int numbers[SIGNALS] = {SIGINT, SIGTERM, SIGHUP};
+    for (int i = 0; i < SIGNALS; i++) {
+        struct sigaction action;
+        w->signals[i].data = w;
+        uv_signal_init(loop, &w->signals[i]);
+        if (sigaction(numbers[i], NULL, &action) == 0 && action.sa_handler != SIG_IGN)
+            uv_signal_start(&w->signals[i], on_signal, numbers[i]);
+    }
 }
 
 bool scad_export(const char *path, const char *program, struct scad_result *out, struct error *err)
@@ -240,8 +277,13 @@ bool scad_export(const char *path, const char *program, struct scad_result *out,
         error_set(err, "%s: cannot start openscad: no event loop", path);
         return false;
     }
-    scad_start(&loop, path, program, on_done, &w);
+    listen_to_signals(&w, &loop);
+    w.job = scad_start(&loop, path, program, on_done, &w);
     uv_run(&loop, UV_RUN_DEFAULT);
     uv_loop_close(&loop);
+    if (w.signal) {
+        raise(w.signal);
+        error_set(err, "%s: ended by signal %d (%s)", path, w.signal, strsignal(w.signal));
+    }
     return w.ok;
 }

@@ -10,14 +10,15 @@ struct scad_result { // {0} is a valid empty result
     char *text; // the .csg, followed by two zero bytes that are not counted; NULL after a failure
     size_t size;
     char *name;   // of the text in messages; imports in the text are relative to its folder
-    char **files; // what the text depends on, the .scad itself first
+    char **files; // what the text depends on, the .scad itself first; missing files as well
     uint32_t file_count;
     char *log; // what openscad said, without its statistics
 };
 
 void scad_result_free(struct scad_result *r); // leaves {0}
 
-// Exports and waits for the end. `program` NULL means $OPENSCAD, or else "openscad" on the PATH.
+// Exports and waits for the end. SIGINT, SIGTERM and SIGHUP end openscad first, then take their
+// course. `program` NULL means $OPENSCAD, or else "openscad" on the PATH.
 // After a failure *out holds files and log all the same.
 bool scad_export(const char *path, const char *program, struct scad_result *out, struct error *err);
 

@@ -12,9 +12,11 @@
 #include "scad/openscad.h"
 
 #include <dirent.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <uv.h>
 
@@ -236,6 +238,57 @@ static void cancelling_kills_the_whole_family(void **state)
     assert_int_not_equal(access(in_folder("parent"), F_OK), 0);
 }
 
+static void write_text(const char *path, const char *text)
+{
+    assert_true(file_write(path, text, strlen(text), NULL));
+}
+
+static void includes_are_known_without_a_rule(void **state)
+{
+    (void)state;
+    struct scad_result r = {0};
+    mkdir(in_folder("sub"), 0755);
+    write_text(in_folder("p.scad"), "include<a.scad>\nuse\t <sub/b.scad> reuse <no.scad>\n"
+                                    "x = 1 < 2; include <> include <far.scad");
+    write_text(in_folder("a.scad"), "include <p.scad> include <sub/../a.scad>");
+    write_text(in_folder("sub/b.scad"), "use <../a.scad> use <missing.scad>");
+    assert_false(scad_export(in_folder("p.scad"), play("echo 'ERROR: no' >&2; exit 1"), &r, NULL));
+    assert_int_equal(r.file_count, 4);
+    assert_string_equal(r.files[0], in_folder("p.scad"));
+    assert_string_equal(r.files[1], in_folder("a.scad"));
+    assert_string_equal(r.files[2], in_folder("sub/b.scad"));
+    assert_string_equal(r.files[3], in_folder("sub/missing.scad"));
+    scad_result_free(&r);
+}
+
+static void signals_end_openscad_first(void **state)
+{
+    (void)state;
+    char script[300];
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    snprintf(script, sizeof script, "touch $2; touch %s; sleep 20", in_folder("begun"));
+    char *program = mem_strdup(play(script));
+    for (size_t i = 0; i < array_count(numbers); i++) {
+        pid_t child = fork();
+        if (child == 0) {
+            struct scad_result r = {0};
+            signal(numbers[i], SIG_DFL);
+            scad_export("p.scad", program, &r, NULL);
+            _exit(0);
+        }
+        for (int wait = 0; wait < 1000 && access(in_folder("begun"), F_OK) != 0; wait++)
+            usleep(10000);
+        unlink(in_folder("begun"));
+        int status;
+        kill(child, numbers[i]);
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFSIGNALED(status));
+        assert_int_equal(WTERMSIG(status), numbers[i]);
+        assert_int_equal(entries(in_folder("tmp")), 0);
+    }
+    free(program);
+}
+
 static void the_real_program(void **state)
 {
     (void)state;
@@ -274,6 +327,8 @@ int main(void)
         TEST(program_comes_from_the_environment),
         TEST(a_dash_in_front_is_no_option),
         TEST(cancelling_kills_the_whole_family),
+        TEST(includes_are_known_without_a_rule),
+        TEST(signals_end_openscad_first),
         TEST(the_real_program),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
