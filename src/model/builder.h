@@ -16,7 +16,18 @@ struct builder {
     struct polygon_cutter *cutter;
     struct scene scene;
     uint32_t unsupported;
+    const atomic_bool *cancelled; // of the options
+    struct {
+        char *path;
+        const struct solid *solid; // NULL: could not be read
+    } * imports;
+    uint32_t import_count, import_room;
 };
+
+static inline bool builder_cancelled(const struct builder *b)
+{
+    return b->cancelled && atomic_load_explicit(b->cancelled, memory_order_relaxed);
+}
 
 static inline struct place builder_place(const struct builder *b, const struct csg_node *n)
 {

@@ -6,6 +6,7 @@
 #include "model/nodes.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <strings.h>
 
 const struct parameters parameters_import = {{"file", "layer", "convexity", "origin", "scale",
@@ -48,6 +49,18 @@ static const struct solid *load(struct builder *b, const struct args *args, cons
     return solid && solid->mesh.triangle_count ? solid : NULL;
 }
 
+// Number of the path among the model's imports.
+static uint32_t find_import(struct builder *b, const char *path)
+{
+    for (uint32_t i = 0; i < b->import_count; i++)
+        if (strcmp(b->imports[i].path, path) == 0)
+            return i;
+    array_reserve(&b->imports, &b->import_room, (size_t)b->import_count + 1);
+    b->imports[b->import_count].path = mem_strdup(path);
+    b->imports[b->import_count].solid = NULL;
+    return b->import_count++;
+}
+
 const struct solid *shape_import(struct builder *b, const struct args *args, struct affine *out)
 {
     (void)out;
@@ -64,7 +77,9 @@ const struct solid *shape_import(struct builder *b, const struct args *args, str
         return NULL;
     }
     char *path = file_join(b->folder, file->string);
-    const struct solid *solid = load(b, args, path);
+    uint32_t number = find_import(b, path);
+    if (!b->imports[number].solid)
+        b->imports[number].solid = load(b, args, path);
     free(path);
-    return solid;
+    return b->imports[number].solid;
 }

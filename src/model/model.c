@@ -42,7 +42,7 @@ static void thicken_sheets(struct scene *s, double epsilon)
 static void add_bodies(struct model *m, enum body_kind kind, const struct builder *b,
                        const struct model_options *options, const struct term_list *terms)
 {
-    for (uint32_t i = 0, alone = 0; i < terms->count; alone++) {
+    for (uint32_t i = 0, alone = 0; i < terms->count && !builder_cancelled(b); alone++) {
         uint32_t taken = alone + 1 < BODIES_MAX ? 1 : terms->count - i;
         body_build(&m->bodies[m->body_count++], kind, b, options, &terms->items[i], taken,
                    &m->bounds);
@@ -65,6 +65,15 @@ static void count_stats(struct model *m, const struct builder *b)
     m->stats.unsupported = b->unsupported;
 }
 
+static void move_imports(struct model *m, struct builder *b)
+{
+    m->import_count = b->import_count;
+    m->imports = mem_alloc(b->import_count * sizeof *m->imports);
+    for (uint32_t i = 0; i < b->import_count; i++)
+        m->imports[i] = b->imports[i].path;
+    free(b->imports);
+}
+
 void model_build(struct model *out, const struct csg_tree *tree, struct solid_store *store,
                  const struct model_options *options, struct messages *messages)
 {
@@ -74,7 +83,8 @@ void model_build(struct model *out, const struct csg_tree *tree, struct solid_st
                         .file = out->file,
                         .folder = file_folder(name),
                         .store = store,
-                        .messages = messages};
+                        .messages = messages,
+                        .cancelled = options->cancelled};
     store_join(store);
     store_count_from(store);
     builder_walk(&b);
@@ -88,6 +98,7 @@ void model_build(struct model *out, const struct csg_tree *tree, struct solid_st
     add_bodies(out, BODY_BACKGROUND, &b, options, &b.scene.backgrounds);
     add_bodies(out, BODY_HIGHLIGHT, &b, options, &b.scene.highlights);
     count_stats(out, &b);
+    move_imports(out, &b);
 
     store_sweep(store);
     scene_free(&b.scene);
@@ -100,6 +111,9 @@ void model_free(struct model *m)
     for (uint32_t i = 0; i < m->body_count; i++)
         body_free(&m->bodies[i]);
     free(m->bodies);
+    for (uint32_t i = 0; i < m->import_count; i++)
+        free(m->imports[i]);
+    free(m->imports);
     free(m->file);
     if (m->store)
         store_leave(m->store);

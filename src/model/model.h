@@ -5,6 +5,8 @@
 #include "hcsg/discovery.h"
 #include "hcsg/roi.h"
 
+#include <stdatomic.h>
+
 struct csg_tree;
 
 struct leaf {
@@ -43,12 +45,16 @@ struct model {
     struct box bounds; // of the intersected leaves of all bodies, for --viewall as OpenSCAD does it
     struct model_stats stats;
     struct solid_store *store;
-    char *file; // its name in the places of leaves
+    char *file;     // its name in the places of leaves
+    char **imports; // paths of the files it wants to be made from, also of those that are missing
+    uint32_t import_count;
 };
 
 struct model_options {
     double epsilon;  // filter in mm across the faces; negative: the default for the model's extent
     bool share, roi; // value sharing and regions of interest; true unless the bench compares
+    // NULL, or once true the rest is skipped: what comes out can only be freed.
+    const atomic_bool *cancelled;
 };
 #define MODEL_DEFAULTS ((struct model_options){.epsilon = -1, .share = true, .roi = true})
 

@@ -293,7 +293,7 @@ void builder_walk(struct builder *b)
         w.frames[0].next = NULL;
         visit(&w, root);
     }
-    for (;;) {
+    while (!builder_cancelled(b)) {
         struct frame *f = &w.frames[w.frame_count - 1];
         const struct csg_node *n = f->next;
         if (n) {

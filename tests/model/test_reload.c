@@ -161,6 +161,43 @@ static void too_many_corners_are_reduced(void **state)
     solid_store_delete(store);
 }
 
+static void imports_are_told(void **state)
+{
+    (void)state;
+    struct solid_store *store = solid_store_new();
+    struct messages messages = {0};
+    struct model m;
+    model_of_text(&m, "here/a.csg",
+                  "import(file = \"none.stl\"); import(file = \"/none.off\");"
+                  "cube(1); import(file = \"none.stl\"); import(file = \"x.unknown\");",
+                  store, &messages);
+    assert_int_equal(m.import_count, 2);
+    assert_string_equal(m.imports[0], "here/none.stl");
+    assert_string_equal(m.imports[1], "/none.off");
+    messages_free(&messages);
+    model_free(&m);
+    solid_store_delete(store);
+}
+
+static void a_cancelled_model_can_be_freed(void **state)
+{
+    (void)state;
+    struct solid_store *store = solid_store_new();
+    struct messages messages = {0};
+    struct csg_tree tree;
+    struct model m;
+    struct model_options options = MODEL_DEFAULTS;
+    atomic_bool cancelled = true;
+    char text[] = "difference() { cube(2); import(file = \"x.stl\"); } #cube(1);\0";
+    options.cancelled = &cancelled;
+    assert_true(csg_parse(&tree, "x.csg", text, sizeof text - 2, &messages));
+    model_build(&m, &tree, store, &options, &messages);
+    model_free(&m);
+    csg_free(&tree);
+    messages_free(&messages);
+    solid_store_delete(store);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -171,6 +208,8 @@ int main(void)
         cmocka_unit_test(deep_trees_need_no_stack),
         cmocka_unit_test(many_marked_objects_share_bodies),
         cmocka_unit_test(too_many_corners_are_reduced),
+        cmocka_unit_test(imports_are_told),
+        cmocka_unit_test(a_cancelled_model_can_be_freed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
