@@ -12,11 +12,11 @@
 #include <unistd.h>
 
 static struct {
-    const char *camera, *projection, *scheme, *size, *openscad;
-    uint32_t threads;
+    const char *camera, *projection, *scheme, *size, *openscad, *device;
+    uint32_t threads, megabytes;
     double epsilon;
     bool stats, no_watch;
-} given = {.epsilon = -1};
+} given = {.epsilon = -1, .megabytes = 256};
 
 static const struct option options[] = {
     {"camera", 0, OPTION_TEXT, "NUMBERS", "x,y,z,rx,ry,rz,distance or eye and centre x,y,z,x,y,z",
@@ -26,8 +26,11 @@ static const struct option options[] = {
      &given.scheme, 0, 0},
     {"size", 0, OPTION_TEXT, "W,H", "of the window in pixels, 1024,768 if not given", &given.size,
      0, 0},
+    {"device", 0, OPTION_TEXT, "auto|cpu", "what draws", &given.device, 0, 0},
     {"threads", 0, OPTION_COUNT, "N", "for drawing, one per processor if not given", &given.threads,
      0, 256},
+    {"memory", 0, OPTION_COUNT, "MB", "memory to draw with, beside model and picture (default 256)",
+     &given.megabytes, 1, 1 << 20},
     {"eps", 0, OPTION_NUMBER, "MM", "layers thinner than this do not show", &given.epsilon, 0, 1e9},
     {"openscad", 0, OPTION_TEXT, "PROGRAM",
      "exports .scad files; if not given $OPENSCAD,\nor openscad on the PATH", &given.openscad, 0,
@@ -60,13 +63,25 @@ static bool read_size(int *width, int *height, struct error *err)
     return false;
 }
 
-// Said before a window opens; a file that breaks later only leaves a message in the window.
+static bool check_device(struct error *err)
+{
+    if (!given.device || strcmp(given.device, "auto") == 0 || strcmp(given.device, "cpu") == 0)
+        return true;
+    error_set(err, "--device: expected auto or cpu, got '%s'", given.device);
+    return false;
+}
+
+// Said before a window opens; a file that breaks later, or does not exist yet, only leaves a
+// message in the window.
 static bool check_file(const char *path, struct error *err)
 {
     struct stat st;
+    bool exists = stat(path, &st) == 0;
     if (strcmp(path, "-") == 0)
         error_set(err, "standard input cannot be followed: name a file");
-    else if (stat(path, &st) != 0 || access(path, R_OK) != 0)
+    else if (!exists && errno == ENOENT && !given.no_watch)
+        return true;
+    else if (!exists || access(path, R_OK) != 0)
         error_set(err, "%s: %s", path, strerror(errno));
     else if (S_ISDIR(st.st_mode))
         error_set(err, "%s: is a folder, not a file", path);
@@ -84,11 +99,13 @@ static bool set_options(struct viewer_options *o, struct error *err)
                                      scheme_find(given.scheme ? given.scheme : "Cornfield", err),
                                  .epsilon = given.epsilon,
                                  .threads = given.threads,
+                                 .memory = (size_t)given.megabytes << 20,
                                  .width = 1024,
                                  .height = 768,
                                  .watch = !given.no_watch,
                                  .stats = given.stats};
-    return o->scheme && (!given.camera || camera_parse(&o->camera, given.camera, err)) &&
+    return o->scheme && check_device(err) &&
+           (!given.camera || camera_parse(&o->camera, given.camera, err)) &&
            (!given.projection || read_projection(&o->camera.orthographic, err)) &&
            (!given.size || read_size(&o->width, &o->height, err));
 }

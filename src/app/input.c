@@ -182,6 +182,12 @@ static void on_exposed(GLFWwindow *window)
     in->exposed = true;
 }
 
+static void on_iconified(GLFWwindow *window, int iconified)
+{
+    (void)iconified;
+    on_exposed(window);
+}
+
 static void on_size(GLFWwindow *window, int width, int height)
 {
     (void)width, (void)height;
@@ -198,5 +204,6 @@ void input_attach(struct input *in, struct GLFWwindow *window)
     glfwSetMouseButtonCallback(window, on_button);
     glfwSetScrollCallback(window, on_wheel);
     glfwSetWindowRefreshCallback(window, on_exposed);
+    glfwSetWindowIconifyCallback(window, on_iconified);
     glfwSetFramebufferSizeCallback(window, on_size);
 }

@@ -1,12 +1,12 @@
 // loader.c - reads the file, builds its model and follows both, on a thread of its own.
 #include "app/loader.h"
 
+#include "app/build.h"
 #include "app/report.h"
 #include "app/watch.h"
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/mem.h"
-#include "csg/csg.h"
 #include "scad/openscad.h"
 
 #include <errno.h>
@@ -14,9 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 #include <uv.h>
-
-#define TEXT_LIMIT ((size_t)1 << 32)
 
 // A file that does not parse, is empty or is gone may be half saved: it is tried again for a while
 // before anything is said.
@@ -29,14 +28,15 @@ struct loader {
     uv_loop_t loop;
     uv_async_t wake;
     uv_timer_t retry;
-    uv_signal_t interrupt, terminate;
+    uv_signal_t signals[3];
     struct watch *watch;
     struct scad_job *job;
     char **files; // that the design depends on, as far as known
     uint32_t file_count, file_capacity;
-    struct solid_store *store;
+    struct build *build;
     uint32_t loads;
     double noticed;    // of the load under way
+    double failed;     // `noticed` of the newest that failed
     uint64_t retry_ms; // before the next try
     bool patient;      // failures may pass
 
@@ -88,62 +88,12 @@ static void publish(struct loader *l, struct loaded *loaded, char *message, bool
 
 static void fail(struct loader *l, struct messages *m)
 {
+    l->failed = l->noticed;
     messages_print(m, stderr);
     publish(l, NULL, report_summary(m), true, l->job != NULL);
 }
 
-// OpenSCAD's bounds also count what intersections cut away.
-static struct box visible_box(const struct model *m)
-{
-    struct box visible = BOX_EMPTY;
-    for (uint32_t i = 0; i < m->body_count; i++) {
-        const struct body *b = &m->bodies[i];
-        for (uint32_t l = 0; l < b->leaf_count; l++) {
-            struct box box = box_intersection(b->leaves[l].box, b->roi[l]);
-            if (!b->leaves[l].subtracted && !box_is_empty(box))
-                visible = box_union(visible, box);
-        }
-    }
-    return visible;
-}
-
-static void build(struct loader *l, const struct csg_tree *tree, struct messages *m,
-                  struct load_times times)
-{
-    struct loaded *s = mem_zalloc(sizeof *s);
-    struct model_options options = MODEL_DEFAULTS;
-    options.epsilon = l->options.epsilon;
-    model_build(&s->model, tree, l->store, &options, m);
-    s->visible = visible_box(&s->model);
-    shader_init(&s->shader, &s->model, l->options.scheme);
-    times.built = clock_seconds();
-    s->times = times;
-    s->number = ++l->loads;
-    s->loader = l;
-    atomic_init(&s->references, 1);
-    messages_print(m, stderr);
-    publish(l, s, report_summary(m), false, l->job != NULL);
-}
-
-// Takes `text` over. False: the text does not parse, and *m says why.
-static bool take_text(struct loader *l, const char *name, char *text, size_t size, double started,
-                      struct messages *m)
-{
-    struct csg_tree tree = {0};
-    bool ok = csg_parse(&tree, name, text, size, m);
-    free(text);
-    if (ok)
-        build(l, &tree, m, (struct load_times){l->noticed, started, clock_seconds(), 0});
-    csg_free(&tree);
-    return ok;
-}
-
-static void load_csg(struct loader *l);
-
-static void on_retry(uv_timer_t *timer)
-{
-    load_csg(timer->data);
-}
+static void on_retry(uv_timer_t *timer);
 
 // Whether the failed load is tried again before it is reported.
 static bool try_again(struct loader *l)
@@ -157,26 +107,6 @@ static bool try_again(struct loader *l)
     return true;
 }
 
-static void load_csg(struct loader *l)
-{
-    struct messages m = {0};
-    struct error err;
-    double started = clock_seconds();
-    char *text;
-    size_t size;
-    if (!file_read(l->options.path, TEXT_LIMIT, &text, &size, &err)) {
-        if (!try_again(l)) {
-            messages_add(&m, MESSAGE_ERROR, (struct place){0}, "%s", err.text);
-            fail(l, &m);
-        }
-    } else if (size == 0 && try_again(l)) {
-        free(text);
-    } else if (!take_text(l, l->options.path, text, size, started, &m) && !try_again(l)) {
-        fail(l, &m);
-    }
-    messages_free(&m);
-}
-
 static void forget_files(struct loader *l)
 {
     for (uint32_t i = 0; i < l->file_count; i++)
@@ -184,41 +114,103 @@ static void forget_files(struct loader *l)
     l->file_count = 0;
 }
 
-// After a failure openscad does not tell all files: the ones from before still matter.
-static void follow_files(struct loader *l, const struct scad_result *result, bool complete)
+static void follow_file(struct loader *l, const char *path)
 {
+    for (uint32_t i = 0; i < l->file_count; i++)
+        if (strcmp(l->files[i], path) == 0)
+            return;
+    array_reserve(&l->files, &l->file_capacity, l->file_count + 1);
+    l->files[l->file_count++] = mem_strdup(path);
+}
+
+// After a failure openscad does not tell all files: the ones from before still matter.
+static void follow_design(struct loader *l, const struct scad_result *result, bool complete)
+{
+    if (!l->watch)
+        return;
     if (complete)
         forget_files(l);
-    for (uint32_t i = 0; i < result->file_count; i++) {
-        uint32_t known = 0;
-        while (known < l->file_count && strcmp(l->files[known], result->files[i]) != 0)
-            known++;
-        if (known < l->file_count)
-            continue;
-        array_reserve(&l->files, &l->file_capacity, l->file_count + 1);
-        l->files[l->file_count++] = mem_strdup(result->files[i]);
-    }
+    for (uint32_t i = 0; i < result->file_count; i++)
+        follow_file(l, result->files[i]);
     watch_set(l->watch, l->files, l->file_count);
+}
+
+static void follow_imports(struct loader *l, const struct model *m)
+{
+    if (!l->watch || l->is_scad)
+        return;
+    forget_files(l);
+    follow_file(l, l->options.path);
+    for (uint32_t i = 0; i < m->import_count; i++)
+        follow_file(l, m->imports[i]);
+    watch_set(l->watch, l->files, l->file_count);
+}
+
+static void on_built(void *context, struct build_task *task)
+{
+    struct loader *l = context;
+    struct loaded *s = task->loaded;
+    bool doubtful = !l->is_scad && (!s || task->size == 0);
+    if (doubtful && try_again(l)) {
+        build_retire(l->build, s);
+        return;
+    }
+    if (!s) {
+        fail(l, &task->messages);
+        return;
+    }
+    follow_imports(l, &s->model);
+    s->times = task->times;
+    s->number = ++l->loads;
+    s->loader = l;
+    messages_print(&task->messages, stderr);
+    // What is wrong with a newer file is more to the point.
+    char *message = l->failed > s->times.noticed ? NULL : report_summary(&task->messages);
+    publish(l, s, message, false, l->job != NULL);
 }
 
 static void on_exported(void *context, struct scad_result *result, const struct error *err)
 {
     struct loader *l = context;
-    struct messages m = {0};
+    struct build_task task = {.times.noticed = l->noticed};
     l->job = NULL;
     if (err)
-        messages_add(&m, MESSAGE_ERROR, (struct place){0}, "%s", err->text);
+        messages_add(&task.messages, MESSAGE_ERROR, (struct place){0}, "%s", err->text);
     else
-        report_log(result->log, &m);
-    if (l->watch)
-        follow_files(l, result, !err);
-    if (!result->text)
-        fail(l, &m);
-    else if (!take_text(l, result->name, result->text, result->size, clock_seconds(), &m))
-        fail(l, &m);
-    result->text = NULL;
+        report_log(result->log, &task.messages);
+    follow_design(l, result, !err);
+    if (result->text) {
+        task.name = result->name;
+        task.text = result->text;
+        task.size = result->size;
+        result->name = result->text = NULL;
+        build_ask(l->build, &task);
+    } else {
+        fail(l, &task.messages);
+    }
+    build_task_free(&task);
     scad_result_free(result);
-    messages_free(&m);
+}
+
+static void begin(struct loader *l)
+{
+    struct build_task task = {.name = mem_strdup(l->options.path), .times.noticed = l->noticed};
+    if (!l->is_scad) {
+        build_ask(l->build, &task);
+    } else if (access(task.name, F_OK) == 0) {
+        l->job = scad_start(&l->loop, l->options.path, l->options.openscad, on_exported, l);
+        publish(l, NULL, NULL, false, true);
+    } else if (!try_again(l)) {
+        messages_add(&task.messages, MESSAGE_ERROR, (struct place){0}, "%s: %s", task.name,
+                     strerror(errno));
+        fail(l, &task.messages);
+    }
+    build_task_free(&task);
+}
+
+static void on_retry(uv_timer_t *timer)
+{
+    begin(timer->data);
 }
 
 static void load(struct loader *l, double noticed)
@@ -226,14 +218,10 @@ static void load(struct loader *l, double noticed)
     l->noticed = noticed;
     l->retry_ms = RETRY_FIRST_MS;
     uv_timer_stop(&l->retry);
-    if (!l->is_scad) {
-        load_csg(l);
-        return;
-    }
     if (l->job)
         scad_cancel(l->job);
-    l->job = scad_start(&l->loop, l->options.path, l->options.openscad, on_exported, l);
-    publish(l, NULL, NULL, false, true);
+    l->job = NULL;
+    begin(l);
 }
 
 static void on_saved(void *context, double noticed)
@@ -253,16 +241,6 @@ static void on_signal(uv_signal_t *handle, int number)
     l->options.woken(l->options.context);
 }
 
-static void free_loaded(struct loaded *s)
-{
-    for (struct loaded *next; s; s = next) {
-        next = s->next;
-        shader_free(&s->shader);
-        model_free(&s->model);
-        free(s);
-    }
-}
-
 static void on_wake(uv_async_t *handle)
 {
     struct loader *l = handle->data;
@@ -272,15 +250,16 @@ static void on_wake(uv_async_t *handle)
     l->retired = NULL;
     l->reload = false;
     uv_mutex_unlock(&l->mutex);
-    free_loaded(retired);
+    build_retire(l->build, retired);
     if (stopping) {
         if (l->job)
             scad_cancel(l->job);
         watch_delete(l->watch);
-        uv_handle_t *handles[] = {(uv_handle_t *)&l->wake, (uv_handle_t *)&l->retry,
-                                  (uv_handle_t *)&l->interrupt, (uv_handle_t *)&l->terminate};
-        for (size_t i = 0; i < array_count(handles); i++)
-            uv_close(handles[i], NULL);
+        build_delete(l->build);
+        uv_close((uv_handle_t *)&l->wake, NULL);
+        uv_close((uv_handle_t *)&l->retry, NULL);
+        for (size_t i = 0; i < array_count(l->signals); i++)
+            uv_close((uv_handle_t *)&l->signals[i], NULL);
     } else if (reload) {
         l->patient = false;
         load(l, clock_seconds());
@@ -290,18 +269,27 @@ static void on_wake(uv_async_t *handle)
 static void run(void *context)
 {
     struct loader *l = context;
-    l->store = solid_store_new();
     if (l->options.watch) {
         l->watch = watch_new(&l->loop, on_saved, l);
-        array_reserve(&l->files, &l->file_capacity, 1);
-        l->files[l->file_count++] = mem_strdup(l->options.path);
+        follow_file(l, l->options.path);
         watch_set(l->watch, l->files, l->file_count);
     }
     load(l, clock_seconds());
     uv_run(&l->loop, UV_RUN_DEFAULT);
     forget_files(l);
     free(l->files);
-    solid_store_delete(l->store);
+}
+
+static void listen_to_signals(struct loader *l)
+{
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    for (size_t i = 0; i < array_count(numbers); i++) {
+        struct sigaction action;
+        l->signals[i].data = l;
+        uv_signal_init(&l->loop, &l->signals[i]);
+        if (sigaction(numbers[i], NULL, &action) == 0 && action.sa_handler != SIG_IGN)
+            uv_signal_start(&l->signals[i], on_signal, numbers[i]);
+    }
 }
 
 struct loader *loader_start(const struct loader_options *options, struct error *err)
@@ -315,14 +303,12 @@ struct loader *loader_start(const struct loader_options *options, struct error *
     }
     l->options = *options;
     l->is_scad = strcasecmp(file_extension(options->path), "scad") == 0;
-    l->wake.data = l->retry.data = l->interrupt.data = l->terminate.data = l;
+    l->wake.data = l->retry.data = l;
+    l->build = build_new(&l->loop, &l->options, on_built, l);
     uv_mutex_init(&l->mutex);
     uv_async_init(&l->loop, &l->wake, on_wake);
     uv_timer_init(&l->loop, &l->retry);
-    uv_signal_init(&l->loop, &l->interrupt);
-    uv_signal_init(&l->loop, &l->terminate);
-    uv_signal_start(&l->interrupt, on_signal, SIGINT);
-    uv_signal_start(&l->terminate, on_signal, SIGTERM);
+    listen_to_signals(l);
     failed = uv_thread_create(&l->thread, run, l);
     if (failed) {
         error_set(err, "cannot start a thread: %s", uv_strerror(failed));
@@ -363,14 +349,14 @@ void loader_stop(struct loader *l)
 {
     if (!l)
         return;
-    loaded_release(l->news.loaded);
     uv_mutex_lock(&l->mutex);
     l->stopping = true;
     uv_mutex_unlock(&l->mutex);
     uv_async_send(&l->wake);
     uv_thread_join(&l->thread);
     uv_loop_close(&l->loop);
-    free_loaded(l->retired);
+    loaded_free(l->retired);
+    loaded_free(l->news.loaded);
     uv_mutex_destroy(&l->mutex);
     free(l->news.message);
     free(l);

@@ -111,7 +111,7 @@ static void set_text(const struct text_font *f, const char *text, int columns,
         if (c == '\n' || column == columns) {
             column = 0;
             line++;
-            if (c == '\n')
+            if (c == '\n' || c == ' ')
                 continue;
         }
         if (out && c > ' ')

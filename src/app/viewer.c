@@ -35,6 +35,7 @@ struct viewer {
     struct pace pace;
     uint32_t reported; // number of the last load whose way was printed
     char *message;
+    char note[1100]; // what the newest command has to say, "" for nothing
     bool failed, busy, ended;
     bool help, hide_messages, save;
 };
@@ -51,18 +52,31 @@ static const char *file_name(const struct viewer *v)
     return slash ? slash + 1 : v->options->path;
 }
 
+// Nothing is drawn for a minimised window; GLFW tells when it comes back.
+static bool is_seen(const struct viewer *v)
+{
+    GLFWwindow *handle = window_handle(v->window);
+    return glfwGetWindowAttrib(handle, GLFW_VISIBLE) &&
+           !glfwGetWindowAttrib(handle, GLFW_ICONIFIED);
+}
+
 static void show_state(struct viewer *v)
 {
-    char title[256];
+    char title[256], text[10000];
     const char *name = file_name(v), *message = v->message ? v->message : "";
     if (v->failed)
         snprintf(title, sizeof title, "%s: error: %.*s", name, (int)strcspn(message, "\n"),
                  message);
     else
-        snprintf(title, sizeof title, "%s%s - hcsg-view", name, v->busy ? " (openscad runs)" : "");
+        snprintf(title, sizeof title, "%s%s - hcsg-view", name,
+                 v->busy     ? " (openscad runs)"
+                 : v->loaded ? ""
+                             : " (loading)");
     glfwSetWindowTitle(window_handle(v->window), title);
     window_set_text(v->window, WINDOW_TOP, v->help ? input_help : "");
-    window_set_text(v->window, WINDOW_BOTTOM, v->hide_messages ? "" : message);
+    snprintf(text, sizeof text, "%s%s%s", v->hide_messages ? "" : message,
+             *v->note && *message && !v->hide_messages ? "\n" : "", v->note);
+    window_set_text(v->window, WINDOW_BOTTOM, text);
     v->input.exposed = true;
 }
 
@@ -84,6 +98,7 @@ static void take_news(struct viewer *v)
     }
     free(v->message);
     v->message = news.message;
+    *v->note = 0;
     v->failed = news.failed;
     v->busy = news.busy;
     v->ended = news.ended || (news.failed && !v->options->watch && !v->loaded);
@@ -105,7 +120,8 @@ static void ask(struct viewer *v, bool refined)
         .height = (height + v->divisor - 1) / v->divisor,
         .divisor = v->divisor,
         .settings = {.epsilon = model_epsilon(&v->loaded->model, v->options->epsilon),
-                     .threads = v->options->threads},
+                     .threads = v->options->threads,
+                     .memory = v->options->memory},
         .asked = clock_seconds(),
     };
     drawing_ask(v->drawing, &job);
@@ -115,11 +131,13 @@ static void print_stats(struct viewer *v, double shown)
 {
     const struct shot *s = &v->shown;
     const struct load_times *t = &s->job.loaded->times;
-    printf("frame %dx%d 1/%d: %.1f ms, asked to shown %.1f ms, setup %.1f ms, %llu fragments, "
-           "%llu misses\n",
-           s->job.width, s->job.height, s->job.divisor, 1e3 * (s->done - s->begun),
-           1e3 * (shown - s->job.asked), 1e3 * s->stats.seconds_setup,
-           (unsigned long long)s->stats.fragments, (unsigned long long)s->stats.misses);
+    printf("frame %dx%d 1/%d: %.1f ms, asked to shown %.1f ms, setup %.2f ms", s->job.width,
+           s->job.height, s->job.divisor, 1e3 * (s->done - s->begun), 1e3 * (shown - s->job.asked),
+           1e3 * s->stats.seconds_setup);
+    if (s->stats.fragments) // the rays that need a walk
+        printf(", walked %llu surfaces, %llu combinations new",
+               (unsigned long long)s->stats.fragments, (unsigned long long)s->stats.misses);
+    printf("\n");
     if (s->job.loaded->number != v->reported)
         printf("load %u: %.1f ms to shown (wait %.1f, parse %.1f, model %.1f, draw %.1f, "
                "show %.1f), %u leaves\n",
@@ -141,11 +159,15 @@ static void save_picture(struct viewer *v)
     do
         snprintf(path, sizeof path, "%.*s-%d.png", stem < 500 ? stem : 500, name, number++);
     while (access(path, F_OK) == 0);
-    if (write_png(path, v->shown.rgb, v->shown.job.width, v->shown.job.height, &err))
+    if (write_png(path, v->shown.rgb, v->shown.job.width, v->shown.job.height, &err)) {
         printf("%s\n", path);
-    else
+        snprintf(v->note, sizeof v->note, "saved %s", path);
+    } else {
         fprintf(stderr, "hcsg-view: %s\n", err.text);
+        snprintf(v->note, sizeof v->note, "%s", err.text);
+    }
     fflush(stdout);
+    show_state(v);
 }
 
 static void take_shot(struct viewer *v)
@@ -155,8 +177,9 @@ static void take_shot(struct viewer *v)
     struct shot *s = &v->shown;
     pace_add(&v->pace, (double)s->job.width * s->job.height, s->done - s->begun);
     window_set_picture(v->window, s->rgb, s->job.width, s->job.height, s->job.divisor > 1);
-    window_paint(v->window);
-    v->input.exposed = false;
+    v->input.exposed = !is_seen(v);
+    if (!v->input.exposed)
+        window_paint(v->window);
     v->drawn = true;
     if (v->options->stats)
         print_stats(v, clock_seconds());
@@ -171,31 +194,35 @@ static void obey(struct viewer *v)
 {
     unsigned commands = v->input.commands;
     v->input.commands = 0;
+    if (commands)
+        *v->note = 0;
     if (commands & COMMAND_RELOAD)
         loader_reload(v->loader);
     if (commands & COMMAND_HELP)
         v->help = !v->help;
     if (commands & COMMAND_MESSAGES)
         v->hide_messages = !v->hide_messages;
-    if (commands & (COMMAND_HELP | COMMAND_MESSAGES))
-        show_state(v);
     if (commands & COMMAND_CAMERA) {
         char text[CAMERA_TEXT];
         camera_print(&v->input.camera, text);
         printf("--camera=%s%s\n", text, v->input.camera.orthographic ? " --projection=o" : "");
         fflush(stdout);
+        snprintf(v->note, sizeof v->note, "--camera=%s%s", text,
+                 v->input.camera.orthographic ? " --projection=o" : "");
     }
     if (commands & COMMAND_SAVE) {
         v->save = true;
         ask(v, true);
     }
+    if (commands)
+        show_state(v);
 }
 
 // Asks for the pictures that are due; returns how long to wait for events, 0 for ever.
 static double plan(struct viewer *v)
 {
     double now = clock_seconds();
-    if (v->input.moved) {
+    if (v->input.moved && is_seen(v)) {
         v->input.moved = false;
         v->refine_at = v->refine_at == 0 ? now : now + still_seconds;
         ask(v, false);
@@ -218,7 +245,7 @@ static void run(struct viewer *v)
         take_shot(v);
         obey(v);
         double wait = plan(v);
-        if (v->input.exposed) {
+        if (v->input.exposed && is_seen(v)) {
             v->input.exposed = false;
             window_paint(v->window);
         }

@@ -4,6 +4,8 @@
 #include "render/camera.h"
 #include "render/scheme.h"
 
+#include <stddef.h>
+
 struct viewer_options {
     const char *path;
     const char *openscad; // NULL: found by scad_start
@@ -12,6 +14,7 @@ struct viewer_options {
     const struct scheme *scheme;
     double epsilon; // negative: chosen by the model
     uint32_t threads;
+    size_t memory; // of struct render_settings
     int width, height;
     bool watch, stats;
 };

@@ -244,7 +244,9 @@ void window_paint(struct window *w)
         paint(w, &w->picture, 0, size, 0, 0, size[0], size[1]);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    for (enum window_text i = 0; i < WINDOW_TEXTS; i++)
-        paint_text(w, i, size);
+    int needed = w->texts[WINDOW_TOP].height + w->texts[WINDOW_BOTTOM].height + 6 * MARGIN;
+    paint_text(w, WINDOW_TOP, size);
+    if (!w->texts[WINDOW_TOP].width || needed <= size[1])
+        paint_text(w, WINDOW_BOTTOM, size);
     glfwSwapBuffers(w->handle);
 }

@@ -170,7 +170,10 @@ errors)
     }
     box 10 > a.csg; echo "cube(" > broken.csg
     expect 1 "expected one file"
-    expect 1 "none.csg: No such file" none.csg
+    expect 1 "none.csg: No such file" --no-watch none.csg
+    expect 1 "a.csg/b.csg: Not a directory" a.csg/b.csg
+    expect 1 "device" --device=none a.csg
+    expect 1 "memory" --memory 0 a.csg
     expect 1 "is a folder" .
     expect 1 "standard input" -
     expect 1 "size=3" --size=3 a.csg
@@ -181,6 +184,78 @@ errors)
     box 10 > a.scad; expect 1 "no such file" --no-watch --openscad /no/openscad a.scad
     unset DISPLAY WAYLAND_DISPLAY
     expect 2 "cannot open a window" a.csg
+    ;;
+files)
+    start later/a.csg # neither folder nor file
+    wait_for err "later/a.csg: No such file"
+    mkdir later; box 10 > later/a.csg
+    wait_for out "load 1:"; shot first
+    echo 'import(file = "part.off"); cube(1);' > later/a.csg
+    wait_for err "part.off: No such file"; wait_for out "load 2:"; shot without
+    differ first without
+    off() { printf 'OFF 4 4 0\n0 0 0\n%s 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' $1; }
+    off 9 > later/part.off
+    wait_for out "load 3:"; shot part; differ without part
+    off 20 > later/part.off
+    wait_for out "load 4:"; shot longer; differ part longer
+    box 10 > later/a.csg
+    wait_for out "load 5:"; shot again; same first again
+    off 9 > later/part.off # no longer of interest
+    mkdir aside; mv later/a.csg aside/; rmdir later 2> /dev/null; sleep 2
+    mv aside/a.csg later/a.csg
+    wait_for out "load 6:"; shot back; same first back
+    [ "$(grep -c "^load" out)" = 6 ] || fail "loaded more often than saved"
+    quit
+    ;;
+storm)
+    box 10 > a.csg
+    start a.csg
+    wait_for out "load 1:"
+    for i in $(seq 50); do box $((i % 20 + 5)) > a.csg; sleep 0.04; done
+    box 20 > a.csg
+    shot before; xdotool key r; shot saved
+    for i in $(seq 20); do # while turning
+        xdotool mousemove 300 200 mousedown 1 mousemove $((300 + i)) 210 mouseup 1
+        box $((i % 20 + 5)) > a.csg
+    done
+    box 20 > a.csg
+    shot before; xdotool key r; shot turned; same saved turned
+    window=$(xdotool search --class hcsg-view | tail -1)
+    for i in $(seq 40); do xdotool windowsize $window $((300 + i * 7)) $((200 + i * 6)); done
+    xdotool windowsize --sync $window 640 480 key v; shot resized; same saved resized
+    xdotool windowunmap --sync $window; sleep 0.3
+    frames=$(grep -c ^frame out)
+    box 10 > a.csg; sleep 0.7; box 12 > a.csg; sleep 0.7
+    [ "$frames" = "$(grep -c ^frame out)" ] || fail "drawn though nobody sees it"
+    xdotool windowmap --sync $window; shot mapped; differ saved mapped
+    box 20 > a.csg; sleep 0.5; shot last; same saved last
+    quit
+    ;;
+openscad)
+    command -v openscad > /dev/null || { echo "SKIP: no openscad"; exit 77; }
+    mkdir sub
+    echo 'include <between.scad>' > a.scad
+    echo 'include <sub/part.scad>' > between.scad
+    echo 'cube(' > sub/part.scad
+    start a.scad
+    wait_for err "Parser error"
+    echo 'cube(10);' > between.scad # openscad has not told that this file is included
+    wait_for out "load 1:"; shot first
+    echo 'include <sub/part.scad>' > between.scad
+    shot broken; same first broken $above
+    echo 'cube(20);' > sub/part.scad
+    wait_for out "load 2:"; shot second
+    rm sub/part.scad; echo 'include <sub/part.scad> cube(5);' > a.scad
+    wait_for err "Can't open include file"
+    wait_for out "load 3:"
+    echo 'cube([5, 5, 30]);' > sub/part.scad # was missing
+    wait_for out "load 4:"; shot tall; differ first tall
+    quit
+    OPENSCAD= PATH=/nowhere "$program" --size=640,480 --stats a.scad > out 2> err &
+    pid=$!
+    wait_for err "openscad: no such file.*install it"
+    [ "$(wc -l < err)" = 1 ] || fail "more than one message"
+    kill -HUP $pid; wait $pid; pid=
     ;;
 *)
     echo "no case $case"
