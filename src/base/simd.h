@@ -30,21 +30,26 @@ static inline v8i v8_seti(int32_t a)
     return (v8i){a, a, a, a, a, a, a, a};
 }
 
-// Written lane by lane because C has no ?: for vectors; compilers make it one instruction.
+// a > b ? a : b in each lane.
 static inline v8f v8_max(v8f a, v8f b)
 {
-    v8f r;
-    for (int i = 0; i < 8; i++)
-        r[i] = a[i] > b[i] ? a[i] : b[i];
-    return r;
+#ifdef __AVX__
+    return (v8f)_mm256_max_ps((__m256)a, (__m256)b);
+#else
+    v8i more = a > b;
+    return (v8f)(((v8i)a & more) | ((v8i)b & ~more));
+#endif
 }
 
+// a < b ? a : b in each lane.
 static inline v8f v8_min(v8f a, v8f b)
 {
-    v8f r;
-    for (int i = 0; i < 8; i++)
-        r[i] = a[i] < b[i] ? a[i] : b[i];
-    return r;
+#ifdef __AVX__
+    return (v8f)_mm256_min_ps((__m256)a, (__m256)b);
+#else
+    v8i less = a < b;
+    return (v8f)(((v8i)a & less) | ((v8i)b & ~less));
+#endif
 }
 
 static inline v8f v8_select(v8i mask, v8f yes, v8f no)
@@ -77,16 +82,14 @@ static inline int v8_bits(v8i mask)
 
 static inline float v8_lowest(v8f a)
 {
-    float m = a[0];
-    for (int i = 1; i < 8; i++)
-        m = a[i] < m ? a[i] : m;
-    return m;
+    a = v8_min(a, __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3));
+    a = v8_min(a, __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5));
+    return a[0] < a[1] ? a[0] : a[1];
 }
 
 static inline float v8_highest(v8f a)
 {
-    float m = a[0];
-    for (int i = 1; i < 8; i++)
-        m = a[i] > m ? a[i] : m;
-    return m;
+    a = v8_max(a, __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3));
+    a = v8_max(a, __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5));
+    return a[0] > a[1] ? a[0] : a[1];
 }

@@ -24,6 +24,8 @@ struct query_node { // a node of the expression, as far as the tile needs it
     uint32_t first_link, last_link; // children while they are collected
     uint32_t first, count;          // children in query.kids afterwards, front to back
     struct extent extent;
+    uint32_t block;              // number of the block for which the next two hold
+    uint32_t found, found_count; // children that may be in the block, in query.found
 };
 
 struct query_link {
@@ -44,12 +46,18 @@ struct query {
     struct query_link *links;
     uint32_t link_count, link_capacity;
     uint32_t *kids;
-    uint32_t kid_count, kid_capacity;
+    float *kid_rects; // x0, y0, x1, y1 of eight children after each other
+    uint32_t kid_count, kid_capacity, rect_capacity;
+    uint32_t *found; // children that may be in the current block
+    uint32_t found_count, found_capacity;
+    uint32_t block; // counts blocks
     struct query_part *parts;
     uint32_t part_count, part_capacity;
     uint32_t *node_of;                // per node of the expression: its query node in this tile
     const struct mesh_interval *lane; // intervals of one leaf on one ray
     uint32_t lane_count;
+    struct mesh_interval *copy; // of a mesh in the block
+    uint32_t copy_capacity;
     v8f limit[BLOCK]; // nothing beyond these keys matters
 };
 
@@ -68,8 +76,9 @@ struct query *query_new(struct tile *t)
 size_t query_bytes(const struct query *q)
 {
     return q->node_capacity * sizeof *q->nodes + q->link_capacity * sizeof *q->links +
-           q->kid_capacity * sizeof *q->kids + q->part_capacity * sizeof *q->parts +
-           q->t->room.nodes * sizeof *q->node_of;
+           (q->kid_capacity + q->found_capacity) * sizeof *q->kids +
+           q->rect_capacity * sizeof *q->kid_rects + q->copy_capacity * sizeof *q->copy +
+           q->part_capacity * sizeof *q->parts + q->t->room.nodes * sizeof *q->node_of;
 }
 
 void query_delete(struct query *q)
@@ -79,6 +88,9 @@ void query_delete(struct query *q)
     free(q->nodes);
     free(q->links);
     free(q->kids);
+    free(q->kid_rects);
+    free(q->found);
+    free(q->copy);
     free(q->parts);
     free(q->node_of);
     free(q);
@@ -112,6 +124,7 @@ static uint32_t link_leaf(struct query *q, uint32_t index, uint32_t top)
             q->nodes[known] = (struct query_node){.op = e->nodes[parent].op,
                                                   .expr = parent,
                                                   .minus = NO_REF,
+                                                  .block = q->block,
                                                   .first_link = NO_REF,
                                                   .last_link = NO_REF};
             if (e->nodes[parent].minus == node)
@@ -171,6 +184,44 @@ static bool misses_block(const struct query *q, uint32_t ref)
     return e->x1 < x || e->x0 > x + (BLOCK - 1) || e->y1 < y || e->y0 > y + (BLOCK - 1);
 }
 
+static void add_kid(struct query *q, uint32_t ref)
+{
+    struct extent e = extent_of(q, ref);
+    float *rect = q->kid_rects + (q->kid_count & ~7u) * 4 + (q->kid_count & 7);
+    rect[0] = e.x0;
+    rect[8] = e.y0;
+    rect[16] = e.x1;
+    rect[24] = e.y1;
+    q->kids[q->kid_count++] = ref;
+}
+
+// Finds the children of a node that may be in the current block, once a block.
+static void find_kids(struct query *q, struct query_node *n)
+{
+    if (n->block == q->block)
+        return;
+    float x = (float)q->t->bx, y = (float)q->t->by;
+    n->block = q->block;
+    n->found = q->found_count;
+    array_reserve(&q->found, &q->found_capacity, q->found_count + n->count);
+    for (uint32_t i = 0; i < n->count; i += 8) {
+        const float *rect = q->kid_rects + (n->first + i) * 4;
+        v8f x0, y0, x1, y1;
+        memcpy(&x0, rect, sizeof x0);
+        memcpy(&y0, rect + 8, sizeof y0);
+        memcpy(&x1, rect + 16, sizeof x1);
+        memcpy(&y1, rect + 24, sizeof y1);
+        int bits = v8_bits((x1 >= v8_set(x)) & (x0 <= v8_set(x + (BLOCK - 1))) & (y1 >= v8_set(y)) &
+                           (y0 <= v8_set(y + (BLOCK - 1))));
+        if (n->count - i < 8)
+            bits &= (1 << (n->count - i)) - 1;
+        for (; bits; bits &= bits - 1)
+            q->found[q->found_count++] =
+                q->kids[n->first + i + (uint32_t)__builtin_ctz((unsigned)bits)];
+    }
+    n->found_count = q->found_count - n->found;
+}
+
 // Drops what cannot be solid here; returns what is left of the node. Depth is bounded by frame.c.
 static uint32_t prune(struct query *q, uint32_t ref)
 {
@@ -198,11 +249,13 @@ static uint32_t prune(struct query *q, uint32_t ref)
     uint32_t minus = prune(q, q->nodes[ref].minus);
     if (kept == 1 && minus == NO_REF)
         return last;
-    uint32_t first = q->kid_count;
-    array_reserve(&q->kids, &q->kid_capacity, q->kid_count + kept);
+    uint32_t first = (q->kid_count + 7) & ~7u; // so that rectangles are looked at by eights
+    q->kid_count = first;
+    array_reserve(&q->kids, &q->kid_capacity, first + kept);
+    array_reserve(&q->kid_rects, &q->rect_capacity, (first + kept + 8) * 4);
     for (uint32_t l = q->nodes[ref].first_link; l != NO_REF; l = q->links[l].next)
         if (q->links[l].ref != NO_REF)
-            q->kids[q->kid_count++] = q->links[l].ref;
+            add_kid(q, q->links[l].ref);
     struct query_node *n = &q->nodes[ref];
     n->first = first;
     n->count = kept;
@@ -353,35 +406,12 @@ static void ray_out(struct query *q, int ray, float band, int32_t id, float *key
     }
 }
 
-// All rays, one at a time, on a copy: asking for faces may forget the block's crossings. False when
-// nothing changed.
-static bool leaf_slow(struct query *q, const struct block_leaf *b, int32_t id, bool out,
-                      struct rays_at *s)
+static uint64_t block_bits(const v8i *mask) // bit i: ray i
 {
-    struct block_leaf *copy = mem_aligned(32, sizeof *copy);
-    uint32_t n = b->mesh ? b->first[BLOCK_PIXELS] : 0;
-    struct mesh_interval *intervals = n ? mem_alloc(n * sizeof *intervals) : NULL;
-    memcpy(copy, b, sizeof *copy);
-    if (n)
-        memcpy(intervals, q->t->mesh.intervals + b->interval, n * sizeof *intervals);
-    bool changed = false;
-    for (int i = 0; i < BLOCK_PIXELS; i++) {
-        float key = s->key[i / BLOCK][i % BLOCK];
-        int32_t owner = s->owner[i / BLOCK][i % BLOCK];
-        if (!(key < NEVER))
-            continue;
-        struct mesh_interval one = {.enter = copy->enter[i], .leave = copy->leave[i]};
-        q->lane = copy->mesh ? intervals + copy->first[i] : &one;
-        q->lane_count = copy->mesh ? copy->first[i + 1] - copy->first[i] : 1;
-        float moved = key;
-        (out ? ray_out : ray_in)(q, i, copy->band, id, &moved, &owner);
-        changed |= moved != key;
-        s->key[i / BLOCK][i % BLOCK] = moved;
-        s->owner[i / BLOCK][i % BLOCK] = owner;
-    }
-    free(intervals);
-    free(copy);
-    return changed;
+    uint64_t bits = 0;
+    for (int y = 0; y < BLOCK; y++)
+        bits |= (uint64_t)(unsigned)v8_bits(mask[y]) << (y * BLOCK);
+    return bits;
 }
 
 static bool kill(struct rays_at *s)
@@ -392,36 +422,75 @@ static bool kill(struct rays_at *s)
     return changed;
 }
 
+// Moves the rays in `rays` (a bit each) one at a time, from where they are in `from`, and writes
+// them to `s`. Works on copies of the crossings, since asking for faces may forget those of the
+// block.
+static void move_rays(struct query *q, const struct block_leaf *b, int32_t id, bool out,
+                      uint64_t rays, const struct rays_at *from, struct rays_at *s)
+{
+    struct mesh_interval ends[BLOCK_PIXELS];
+    uint32_t first[BLOCK_PIXELS + 1];
+    float band = b->band;
+    bool mesh = b->mesh;
+    if (mesh) {
+        uint32_t n = b->first[BLOCK_PIXELS];
+        array_reserve(&q->copy, &q->copy_capacity, n + 1);
+        memcpy(q->copy, q->t->mesh.intervals + b->interval, n * sizeof *q->copy);
+        memcpy(first, b->first, sizeof first);
+    } else {
+        for (uint64_t left = rays; left; left &= left - 1) {
+            int i = __builtin_ctzll(left);
+            ends[i] = (struct mesh_interval){.enter = b->enter[i], .leave = b->leave[i]};
+        }
+    }
+    for (; rays; rays &= rays - 1) {
+        int i = __builtin_ctzll(rays), y = i / BLOCK, x = i % BLOCK;
+        float key = from->key[y][x];
+        int32_t owner = from->owner[y][x];
+        q->lane = mesh ? q->copy + first[i] : &ends[i];
+        q->lane_count = mesh ? first[i + 1] - first[i] : 1;
+        if (key < NEVER)
+            (out ? ray_out : ray_in)(q, i, band, id, &key, &owner);
+        s->key[y][x] = key;
+        s->owner[y][x] = owner;
+    }
+}
+
+static bool differs(const struct rays_at *a, const struct rays_at *b)
+{
+    v8i d = v8_seti(0);
+    for (int y = 0; y < BLOCK; y++)
+        d |= a->key[y] != b->key[y];
+    return v8_bits(d);
+}
+
 static bool leaf_in(struct query *q, uint32_t index, struct rays_at *s)
 {
     const struct block_leaf *b = tile_crossings(q->t, &q->t->leaves[index]);
     int32_t id = (int32_t)(index << 1);
     if (!b)
         return kill(s);
-    if (b->mesh)
-        return leaf_slow(q, b, id, false, s);
-
-    const v8f *enter = (const v8f *)b->enter, *leave = (const v8f *)b->leave;
-    v8f band = v8_set(b->band), never = v8_set(NEVER);
-    v8i close = v8_seti(0);
-    for (int y = 0; y < BLOCK; y++) {
-        v8f c = s->key[y], m = v8_max(c, enter[y]);
-        v8i other = s->owner[y] != v8_seti(id);
-        close |= ((leave[y] - m <= band) & (leave[y] > c)) |
-                 ((v8_abs(enter[y] - c) <= band) & other & (c < never));
+    struct rays_at moved;
+    uint64_t close = UINT64_MAX;
+    if (!b->mesh) {
+        const v8f *enter = (const v8f *)b->enter, *leave = (const v8f *)b->leave;
+        v8f band = v8_set(b->band), never = v8_set(NEVER);
+        v8i any = v8_seti(0), near[BLOCK];
+        for (int y = 0; y < BLOCK; y++) {
+            v8f c = s->key[y], e = enter[y], x = leave[y], m = v8_max(c, e);
+            v8i in = x > c, other = s->owner[y] != v8_seti(id);
+            near[y] = ((x - m <= band) & in) | ((v8_abs(e - c) <= band) & other & (c < never));
+            any |= near[y];
+            moved.key[y] = v8_select(in, m, never);
+            moved.owner[y] = v8_selecti((e > c) & in, v8_seti(id), s->owner[y]);
+        }
+        close = v8_bits(any) ? block_bits(near) : 0;
     }
-    if (v8_bits(close))
-        return leaf_slow(q, b, id, false, s);
-    v8i changed = v8_seti(0);
-    for (int y = 0; y < BLOCK; y++) {
-        v8f c = s->key[y];
-        v8i in = leave[y] > c, ahead = (enter[y] > c) & in;
-        v8f moved = v8_select(in, v8_max(c, enter[y]), never);
-        changed |= moved != c;
-        s->key[y] = moved;
-        s->owner[y] = v8_selecti(ahead, v8_seti(id), s->owner[y]);
-    }
-    return v8_bits(changed);
+    if (close)
+        move_rays(q, b, id, false, close, s, &moved);
+    bool changed = differs(&moved, s);
+    *s = moved;
+    return changed;
 }
 
 static bool leaf_out(struct query *q, uint32_t index, float high, struct rays_at *s)
@@ -430,28 +499,30 @@ static bool leaf_out(struct query *q, uint32_t index, float high, struct rays_at
     int32_t id = (int32_t)(index << 1);
     if (!b || b->near - b->band > high)
         return false;
-    if (b->mesh)
-        return leaf_slow(q, b, id, true, s);
-
-    const v8f *enter = (const v8f *)b->enter, *leave = (const v8f *)b->leave;
-    v8f band = v8_set(b->band);
-    v8i close = v8_seti(0), changed = v8_seti(0);
-    struct rays_at moved = *s;
-    for (int y = 0; y < BLOCK; y++) {
-        v8f c = s->key[y];
-        v8i inside = (enter[y] <= c) & (leave[y] > c);
-        v8i other = s->owner[y] != v8_seti(id | 1);
-        close |= ((v8_abs(enter[y] - c) <= band) | (v8_abs(leave[y] - c) <= band)) & other;
-        changed |= inside;
-        moved.key[y] = v8_select(inside, leave[y], c);
-        moved.owner[y] = v8_selecti(inside, v8_seti(id | 1), s->owner[y]);
+    struct rays_at moved;
+    uint64_t close = UINT64_MAX;
+    if (!b->mesh) {
+        const v8f *enter = (const v8f *)b->enter, *leave = (const v8f *)b->leave;
+        v8f band = v8_set(b->band);
+        v8i any = v8_seti(0), inside_any = v8_seti(0), near[BLOCK];
+        for (int y = 0; y < BLOCK; y++) {
+            v8f c = s->key[y], e = enter[y], x = leave[y];
+            v8i inside = (e <= c) & (x > c), other = s->owner[y] != v8_seti(id | 1);
+            near[y] = ((v8_abs(e - c) <= band) | (v8_abs(x - c) <= band)) & other;
+            any |= near[y];
+            inside_any |= inside;
+            moved.key[y] = v8_select(inside, x, c);
+            moved.owner[y] = v8_selecti(inside, v8_seti(id | 1), s->owner[y]);
+        }
+        close = v8_bits(any) ? block_bits(near) : 0;
+        if (!close && !v8_bits(inside_any))
+            return false;
     }
-    if (v8_bits(close))
-        return leaf_slow(q, b, id, true, s);
-    if (!v8_bits(changed))
-        return false;
+    if (close)
+        move_rays(q, b, id, true, close, s, &moved);
+    bool changed = differs(&moved, s);
     *s = moved;
-    return true;
+    return changed;
 }
 
 // s = the nearer of s and other, ray by ray; of two within epsilon the later one owns the place.
@@ -477,25 +548,18 @@ static void nearer(struct query *q, struct rays_at *s, const struct rays_at *oth
 static bool move_in(struct query *q, uint32_t ref, struct rays_at *s);
 static bool move_out(struct query *q, uint32_t ref, struct rays_at *s);
 
-static bool differs(const struct rays_at *a, const struct rays_at *b)
+static bool union_in(struct query *q, struct query_node *n, struct rays_at *s)
 {
-    v8i d = v8_seti(0);
-    for (int y = 0; y < BLOCK; y++)
-        d |= a->key[y] != b->key[y];
-    return v8_bits(d);
-}
-
-static bool union_in(struct query *q, const struct query_node *n, struct rays_at *s)
-{
+    find_kids(q, n);
     struct rays_at best, one;
     float high = NEVER;
     for (int y = 0; y < BLOCK; y++) {
         best.key[y] = v8_set(NEVER);
         best.owner[y] = v8_seti(-1);
     }
-    for (uint32_t i = 0; i < n->count; i++) {
-        uint32_t kid = q->kids[n->first + i];
-        if (extent_of(q, kid).near > high || misses_block(q, kid))
+    for (uint32_t i = 0; i < n->found_count; i++) {
+        uint32_t kid = q->found[n->found + i]; // deeper unions may move the array
+        if (extent_of(q, kid).near > high)
             continue;
         one = *s;
         move_in(q, kid, &one);
@@ -515,17 +579,18 @@ static bool union_in(struct query *q, const struct query_node *n, struct rays_at
     return changed;
 }
 
-static bool union_out(struct query *q, const struct query_node *n, struct rays_at *s)
+static bool union_out(struct query *q, struct query_node *n, struct rays_at *s)
 {
+    find_kids(q, n);
     bool changed = false, again = true;
     float reach = 1000 * q->t->frame->epsilon;
     while (again) {
         again = false;
         float high = highest(s->key), low = lowest(s->key);
-        for (uint32_t i = 0; i < n->count; i++) {
-            uint32_t ref = q->kids[n->first + i];
+        for (uint32_t i = 0; i < n->found_count; i++) {
+            uint32_t ref = q->found[n->found + i];
             struct extent e = extent_of(q, ref);
-            if (e.near > high + reach || e.far < low - reach || misses_block(q, ref))
+            if (e.near > high + reach || e.far < low - reach)
                 continue;
             bool moved =
                 ref & LEAF_BIT ? leaf_out(q, ref & ~LEAF_BIT, high, s) : move_out(q, ref, s);
@@ -592,7 +657,7 @@ static bool move_in(struct query *q, uint32_t ref, struct rays_at *s)
         return leaf_in(q, ref & ~LEAF_BIT, s);
     if (misses_block(q, ref))
         return kill(s);
-    const struct query_node *n = &q->nodes[ref];
+    struct query_node *n = &q->nodes[ref];
     return n->op == EXPR_UNION ? union_in(q, n, s) : intersection_in(q, n, s);
 }
 
@@ -602,7 +667,7 @@ static bool move_out(struct query *q, uint32_t ref, struct rays_at *s)
         return leaf_out(q, ref & ~LEAF_BIT, highest(s->key), s);
     if (misses_block(q, ref))
         return false;
-    const struct query_node *n = &q->nodes[ref];
+    struct query_node *n = &q->nodes[ref];
     return n->op == EXPR_UNION ? union_out(q, n, s) : intersection_out(q, n, s);
 }
 
@@ -658,6 +723,8 @@ void query_block(struct query *q, struct rays_at *out)
     struct tile *t = q->t;
     v8f start = v8_set(t->frame->start);
     float high = NEVER;
+    q->block++;
+    q->found_count = 0;
     for (int y = 0; y < BLOCK; y++) {
         out->key[y] = v8_set(NEVER);
         out->owner[y] = v8_seti(-1);
