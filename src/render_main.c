@@ -21,17 +21,18 @@ enum { SIDE_MOST = 32768, PIXELS_MOST = 1 << 26 };
 
 // The command line as it was given.
 static struct {
-    const char *output, *size, *camera, *projection, *scheme, *device;
+    const char *output, *camera, *projection, *scheme, *device;
+    int size[2];
     bool viewall, autocenter, summary;
     uint32_t threads, megabytes;
     double epsilon;
-} given = {.size = "512,512", .scheme = "Cornfield", .epsilon = -1, .megabytes = 256};
+} given = {.size = {512, 512}, .scheme = "Cornfield", .epsilon = -1, .megabytes = 256};
 
 static const struct option options[] = {
     {"output", 'o', OPTION_TEXT, "FILE", "write the picture there; - is standard output",
      &given.output, 0, 0},
-    {"imgsize", 0, OPTION_TEXT, "W,H", "size of the picture in pixels (default 512,512)",
-     &given.size, 0, 0},
+    {"imgsize", 0, OPTION_SIZE, "W,H", "size of the picture in pixels (default 512,512)",
+     given.size, 1, SIDE_MOST},
     {"camera", 0, OPTION_TEXT, "NUMBERS",
      "tx,ty,tz,rx,ry,rz,distance or eyex,eyey,eyez,centrex,centrey,centrez;\n"
      "without it the whole model is shown, as by --viewall --autocenter",
@@ -70,50 +71,17 @@ static const struct program program = {
 // What the options mean, checked.
 struct request {
     const char *input;
-    int width, height;
     struct camera camera;
     bool viewall, autocenter;
     const struct scheme *scheme;
 };
 
-static bool parse_size(const char *text, int *width, int *height, struct error *err)
+static bool check_size(struct error *err)
 {
-    char *end;
-    long w = strtol(text, &end, 10), h = 0;
-    bool ok = end != text && *end == ',';
-    if (ok) {
-        const char *second = end + 1;
-        h = strtol(second, &end, 10);
-        ok = end != second && !*end;
-    }
-    if (!ok) {
-        error_set(err, "--imgsize: expected WIDTH,HEIGHT, got '%s'", text);
-        return false;
-    }
-    if (w < 1 || h < 1 || w > SIDE_MOST || h > SIDE_MOST || w * h > PIXELS_MOST) {
-        error_set(err, "--imgsize: expected sides of 1 to %d and at most %d pixels, got '%s'",
-                  SIDE_MOST, PIXELS_MOST, text);
-        return false;
-    }
-    *width = (int)w;
-    *height = (int)h;
-    return true;
-}
-
-static bool parse_projection(const char *text, bool *orthographic, struct error *err)
-{
-    static const struct {
-        const char *name;
-        bool orthographic;
-    } names[] = {
-        {"o", true}, {"ortho", true}, {"orthogonal", true}, {"p", false}, {"perspective", false}};
-    for (size_t i = 0; i < array_count(names); i++) {
-        if (strcmp(names[i].name, text) == 0) {
-            *orthographic = names[i].orthographic;
-            return true;
-        }
-    }
-    error_set(err, "--projection: expected o, ortho, p or perspective, got '%s'", text);
+    if ((int64_t)given.size[0] * given.size[1] <= PIXELS_MOST)
+        return true;
+    error_set(err, "--imgsize: expected at most %d pixels, got %d,%d", PIXELS_MOST, given.size[0],
+              given.size[1]);
     return false;
 }
 
@@ -156,10 +124,9 @@ static bool parse_request(struct request *out, int operands, char **argv, struct
     out->viewall = given.viewall || !given.camera;
     out->autocenter = given.autocenter || !given.camera;
     out->scheme = scheme_find(given.scheme, err);
-    return out->scheme && parse_size(given.size, &out->width, &out->height, err) &&
+    return out->scheme && check_size(err) &&
            (!given.camera || camera_parse(&out->camera, given.camera, err)) &&
-           (!given.projection ||
-            parse_projection(given.projection, &out->camera.orthographic, err)) &&
+           (!given.projection || camera_parse_projection(&out->camera, given.projection, err)) &&
            check_output(given.output, err);
 }
 
@@ -213,7 +180,7 @@ static void print_summary(FILE *out, const struct request *r, const struct model
     fprintf(out, "Warnings:      %u\n", messages->warnings);
     print_box(out, m->bounds);
     fprintf(out, "Camera:        --camera=%s\n", camera);
-    fprintf(out, "Picture:       %d x %d\n", r->width, r->height);
+    fprintf(out, "Picture:       %d x %d\n", given.size[0], given.size[1]);
     fprintf(out, "Time:          read %.1f ms, build %.1f ms, draw %.1f ms, write %.1f ms\n",
             t->read * 1e3, t->build * 1e3, t->draw * 1e3, t->write * 1e3);
 }
@@ -237,7 +204,7 @@ static bool draw(struct picture *out, struct request *r, const struct model *m,
         error_set(err, "--camera: the distance must be above 0");
         return false;
     }
-    struct rays rays = camera_rays(&r->camera, r->width, r->height, m->bounds);
+    struct rays rays = camera_rays(&r->camera, given.size[0], given.size[1], m->bounds);
     const struct render_settings settings = {.epsilon = model_epsilon(m, given.epsilon),
                                              .threads = given.threads,
                                              .memory = (size_t)given.megabytes << 20};

@@ -12,11 +12,12 @@
 #include <unistd.h>
 
 static struct {
-    const char *camera, *projection, *scheme, *size, *openscad, *device;
+    const char *camera, *projection, *scheme, *openscad, *device;
+    int size[2];
     uint32_t threads, megabytes;
     double epsilon;
     bool stats, no_watch;
-} given = {.epsilon = -1, .megabytes = 256};
+} given = {.size = {1024, 768}, .epsilon = -1, .megabytes = 256};
 
 static const struct option options[] = {
     {"camera", 0, OPTION_TEXT, "NUMBERS", "x,y,z,rx,ry,rz,distance or eye and centre x,y,z,x,y,z",
@@ -24,8 +25,8 @@ static const struct option options[] = {
     {"projection", 0, OPTION_TEXT, "KIND", "o(rtho) or p(erspective)", &given.projection, 0, 0},
     {"colorscheme", 0, OPTION_TEXT, "NAME", "one of OpenSCAD's, Cornfield if not given",
      &given.scheme, 0, 0},
-    {"size", 0, OPTION_TEXT, "W,H", "of the window in pixels, 1024,768 if not given", &given.size,
-     0, 0},
+    {"size", 0, OPTION_SIZE, "W,H", "of the window in pixels, 1024,768 if not given", given.size,
+     64, 16384},
     {"device", 0, OPTION_TEXT, "auto|cpu", "what draws", &given.device, 0, 0},
     {"threads", 0, OPTION_COUNT, "N", "for drawing, one per processor if not given", &given.threads,
      0, 256},
@@ -39,29 +40,6 @@ static const struct option options[] = {
      0},
     {"stats", 0, OPTION_FLAG, NULL, "print the times of frames and loads", &given.stats, 0, 0},
 };
-
-static bool read_projection(bool *orthographic, struct error *err)
-{
-    static const char *const names[] = {"p", "perspective", "o", "ortho", "orthogonal"};
-    for (size_t i = 0; i < array_count(names); i++)
-        if (strcasecmp(given.projection, names[i]) == 0) {
-            *orthographic = i >= 2;
-            return true;
-        }
-    error_set(err, "--projection=%s: expected o or p", given.projection);
-    return false;
-}
-
-static bool read_size(int *width, int *height, struct error *err)
-{
-    enum { LEAST = 64, MOST = 16384 };
-    char rest;
-    if (sscanf(given.size, "%d,%d%c", width, height, &rest) == 2 && *width >= LEAST &&
-        *height >= LEAST && *width <= MOST && *height <= MOST)
-        return true;
-    error_set(err, "--size=%s: expected W,H from %d to %d", given.size, LEAST, MOST);
-    return false;
-}
 
 static bool check_device(struct error *err)
 {
@@ -100,14 +78,13 @@ static bool set_options(struct viewer_options *o, struct error *err)
                                  .epsilon = given.epsilon,
                                  .threads = given.threads,
                                  .memory = (size_t)given.megabytes << 20,
-                                 .width = 1024,
-                                 .height = 768,
+                                 .width = given.size[0],
+                                 .height = given.size[1],
                                  .watch = !given.no_watch,
                                  .stats = given.stats};
     return o->scheme && check_device(err) &&
            (!given.camera || camera_parse(&o->camera, given.camera, err)) &&
-           (!given.projection || read_projection(&o->camera.orthographic, err)) &&
-           (!given.size || read_size(&o->width, &o->height, err));
+           (!given.projection || camera_parse_projection(&o->camera, given.projection, err));
 }
 
 int main(int argc, char **argv)

@@ -129,6 +129,30 @@ static bool store_number(const struct given *g, struct error *err)
     return true;
 }
 
+static bool store_size(const struct given *g, struct error *err)
+{
+    const struct option *o = g->option;
+    const char *second = g->value;
+    char *end;
+    long w = strtol(g->value, &end, 10), h = 0;
+    bool ok = end != g->value && *end == ',';
+    if (ok) {
+        second = end + 1;
+        h = strtol(second, &end, 10);
+        ok = end != second && !*end;
+    }
+    double low = (double)(w < h ? w : h), high = (double)(w > h ? w : h);
+    if (!ok || low < o->least || high > o->most) {
+        error_set(err, "%.*s: expected WIDTH,HEIGHT from %.15g to %.15g, got '%s'", shown(g),
+                  g->word, o->least, o->most, g->value);
+        return false;
+    }
+    int *size = o->target;
+    size[0] = (int)w;
+    size[1] = (int)h;
+    return true;
+}
+
 static bool store(const struct given *g, struct error *err)
 {
     switch (g->option->kind) {
@@ -142,6 +166,8 @@ static bool store(const struct given *g, struct error *err)
     case OPTION_TEXT:
         *(const char **)g->option->target = g->value;
         return true;
+    case OPTION_SIZE:
+        return store_size(g, err);
     case OPTION_COUNT:
     case OPTION_NUMBER:
         break;

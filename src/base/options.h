@@ -7,6 +7,7 @@ enum option_kind {
     OPTION_TEXT,   // const char *: borrowed from argv
     OPTION_COUNT,  // uint32_t: a whole number in [least, most]
     OPTION_NUMBER, // double: a finite number in [least, most]
+    OPTION_SIZE,   // int[2]: "W,H", whole numbers in [least, most]
 };
 
 struct option {
@@ -16,7 +17,7 @@ struct option {
     const char *argument; // as the help names it; NULL for flags
     const char *help;     // "\n" starts a further line
     void *target;
-    double least, most; // of COUNT and NUMBER
+    double least, most; // of COUNT, NUMBER and SIZE
 };
 
 struct program {

@@ -2,10 +2,12 @@
 #include "render/camera.h"
 
 #include "base/angle.h"
+#include "base/mem.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define RADIANS           (M_PI / 180)
 #define DEGREES_PER_PIXEL 0.7
@@ -99,6 +101,18 @@ bool camera_parse(struct camera *out, const char *text, struct error *err)
     else
         out->rotation.z = turn_normalized(atan2(d.y, d.x) / RADIANS - 90);
     return true;
+}
+
+bool camera_parse_projection(struct camera *out, const char *text, struct error *err)
+{
+    static const char *const names[] = {"p", "perspective", "o", "ortho", "orthogonal"};
+    for (size_t i = 0; i < array_count(names); i++)
+        if (strcasecmp(text, names[i]) == 0) {
+            out->orthographic = i >= 2;
+            return true;
+        }
+    error_set(err, "--projection: expected o, ortho, p or perspective, got '%s'", text);
+    return false;
 }
 
 void camera_print(const struct camera *c, char text[CAMERA_TEXT])

@@ -16,6 +16,8 @@ struct camera {
 
 // "tx,ty,tz,rx,ry,rz,distance" or "ex,ey,ez,cx,cy,cz" (eye and centre). Keeps fov and projection.
 bool camera_parse(struct camera *out, const char *text, struct error *err);
+// "o", "ortho", "orthogonal", "p" or "perspective".
+bool camera_parse_projection(struct camera *out, const char *text, struct error *err);
 // Writes the form of seven numbers, as short as reads back the same, into `text`.
 enum { CAMERA_TEXT = 7 * 26 };
 void camera_print(const struct camera *c, char text[CAMERA_TEXT]);

@@ -176,8 +176,8 @@ errors)
     expect 1 "memory" --memory 0 a.csg
     expect 1 "is a folder" .
     expect 1 "standard input" -
-    expect 1 "size=3" --size=3 a.csg
-    expect 1 "projection=x" --projection=x a.csg
+    expect 1 "size: expected" --size=3 a.csg
+    expect 1 "projection: expected" --projection=x a.csg
     expect 1 "camera" --camera=1,2 a.csg
     expect 1 "Cornfield" --colorscheme=none a.csg
     expect 1 "broken.csg:1" --no-watch broken.csg

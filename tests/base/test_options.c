@@ -15,6 +15,7 @@ static const char *output, *scheme;
 static bool verbose;
 static uint32_t threads;
 static double scale;
+static int sides[2];
 
 static const struct option options[] = {
     {"output", 'o', OPTION_TEXT, "FILE", "where to write", &output, 0, 0},
@@ -22,6 +23,7 @@ static const struct option options[] = {
     {"verbose", 'V', OPTION_FLAG, NULL, "say more", &verbose, 0, 0},
     {"threads", 'j', OPTION_COUNT, "N", "threads", &threads, 0, 64},
     {"scale", 0, OPTION_NUMBER, "S", "factor", &scale, -1, 1e6},
+    {"size", 0, OPTION_SIZE, "W,H", "sides", sides, 1, 99},
 };
 static const struct program program = {"tool", "1.2.3", "Does things.",
                                        "FILE", options, array_count(options)};
@@ -63,6 +65,8 @@ static void accepts_all_forms(void **state)
     assert_string_equal(output, "x");
     assert_int_equal(threads, 7);
     assert_true(scale == -0.5);
+    assert_int_equal(parse("--size=3,4", &err), OPTIONS_RUN);
+    assert_true(sides[0] == 3 && sides[1] == 4);
     assert_int_equal(operands, 0);
     assert_int_equal(parse("-ox=y", &err), OPTIONS_RUN);
     assert_string_equal(output, "x=y");
@@ -103,6 +107,11 @@ static void says_what_is_wrong(void **state)
         {"--scale=nan", "--scale: expected a number, got 'nan'"},
         {"--scale=1e999", "--scale: expected a number, got '1e999'"},
         {"--scale=3mm", "--scale: expected a number, got '3mm'"},
+        {"--size=5", "--size: expected WIDTH,HEIGHT from 1 to 99, got '5'"},
+        {"--size=5,", "--size: expected WIDTH,HEIGHT from 1 to 99, got '5,'"},
+        {"--size=5,5x", "--size: expected WIDTH,HEIGHT from 1 to 99, got '5,5x'"},
+        {"--size=0,5", "--size: expected WIDTH,HEIGHT from 1 to 99, got '0,5'"},
+        {"--size=5,100", "--size: expected WIDTH,HEIGHT from 1 to 99, got '5,100'"},
     };
     for (size_t i = 0; i < array_count(rows); i++) {
         struct error err = {0};
@@ -154,6 +163,7 @@ static void help_shows_the_table(void **state)
                               "  -V, --verbose               say more\n"
                               "  -j, --threads=N             threads\n"
                               "      --scale=S               factor\n"
+                              "      --size=W,H              sides\n"
                               "  -h, --help                  show this text\n"
                               "  -v, --version               show the version\n");
     assert_int_equal(printed("--version", text, sizeof text), OPTIONS_DONE);
