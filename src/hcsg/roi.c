@@ -61,8 +61,6 @@ static bool boxes_down(struct box *box, const struct expr *e)
 
 void roi_build(struct box *roi, const struct expr *e, const struct box *leaf_box)
 {
-    for (uint32_t l = 0; l < e->leaf_count; l++)
-        roi[l] = BOX_EMPTY;
     struct box *box = mem_alloc(e->node_count * sizeof *box);
     for (uint32_t i = 0; i < e->node_count; i++)
         if (e->nodes[i].op == EXPR_LEAF)
@@ -72,6 +70,8 @@ void roi_build(struct box *roi, const struct expr *e, const struct box *leaf_box
         if (!boxes_down(box, e))
             break;
     }
+    for (uint32_t l = 0; l < e->leaf_count; l++)
+        roi[l] = BOX_EMPTY;
     for (uint32_t i = 0; i < e->node_count; i++)
         if (e->nodes[i].op == EXPR_LEAF)
             roi[e->nodes[i].leaf] = box[i];

@@ -7,5 +7,6 @@
 #include "hcsg/expr.h"
 
 // Fills roi[leaf] from the boxes of the leaves, iterated to a fixed point; an empty box means that
-// the leaf cannot matter. Conservative: never smaller than the true region.
+// the leaf cannot matter; `roi` may be `leaf_box`. Conservative: never smaller than the true
+// region.
 void roi_build(struct box *roi, const struct expr *e, const struct box *leaf_box);

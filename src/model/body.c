@@ -1,6 +1,7 @@
 // body.c - from operations between placed shapes to a body that can be drawn.
 #include "model/builder.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +17,7 @@ struct todo {
 };
 
 struct emitter {
-    const struct builder *b;
+    struct builder *b;
     struct body *body;
     uint32_t leaf_room;
     bool *intersected; // per leaf
@@ -39,24 +40,24 @@ static void put_todo(struct emitter *e, struct todo t)
     e->todo[e->todo_count++] = t;
 }
 
-static void put_leaf(struct emitter *e, const struct placed *p, uint8_t stands)
+static void put_leaf(struct emitter *e, uint32_t number, uint8_t stands)
 {
-    struct leaf leaf = {.solid = p->solid,
-                        .to_world = p->to_world,
-                        .subtracted = stands & STANDS_PALE,
-                        .place = {e->b->file, p->line, p->column}};
-    if (!p->solid || !affine_inverse(&leaf.to_world, &leaf.to_local)) {
+    struct leaf leaf = e->b->scene.leaves[number];
+    if (!leaf.solid || !affine_inverse(&leaf.to_world, &leaf.to_local)) {
         put_token(e, EXPR_UNION, 0);
         return;
     }
     leaf.mirrored = affine_determinant(&leaf.to_world) < 0;
-    leaf.box = box_transformed(p->solid->bounds, &leaf.to_world);
-    memcpy(leaf.colour, p->colour, sizeof leaf.colour);
-    store_hold(e->b->store, p->solid);
+    leaf.subtracted = stands & STANDS_PALE;
+    leaf.box = box_transformed(leaf.solid->bounds, &leaf.to_world);
+    store_hold(e->b->store, leaf.solid);
 
     struct body *body = e->body;
     size_t needed = (size_t)body->leaf_count + 1;
-    array_reserve(&body->leaves, &e->leaf_room, needed);
+    if (body->kind == BODY_MAIN) // compacted in place: numbers come in the order of the file
+        assert(number >= body->leaf_count);
+    else
+        array_reserve(&body->leaves, &e->leaf_room, needed);
     array_reserve(&e->intersected, &e->intersected_room, needed);
     body->leaves[body->leaf_count] = leaf;
     e->intersected[body->leaf_count] = !(stands & (STANDS_SUBTRACTED | STANDS_APART));
@@ -77,7 +78,7 @@ static void put_term(struct emitter *e, struct todo now)
     if (t->rendered && !(stands & STANDS_RENDERED))
         stands |= stands & STANDS_SUBTRACTED ? STANDS_RENDERED | STANDS_APART : STANDS_RENDERED;
     if (t->op == TERM_LEAF) {
-        put_leaf(e, &s->placed[t->left], stands);
+        put_leaf(e, t->left, stands);
         return;
     }
     // A chain of one operation down the left operands is one operation on many.
@@ -113,42 +114,60 @@ static void emit(struct emitter *e, uint32_t term)
     }
 }
 
+// The leaves and their expression.
+static void emit_all(struct emitter *e, const uint32_t *terms, uint32_t term_count)
+{
+    struct body *body = e->body;
+    struct scene *s = &e->b->scene;
+    if (body->kind == BODY_MAIN)
+        body->leaves = s->leaves;
+    for (uint32_t i = 0; i < term_count; i++)
+        emit(e, terms[i]);
+    put_token(e, EXPR_UNION, term_count);
+    free(e->todo);
+    if (body->kind == BODY_MAIN) {
+        s->leaves = NULL;
+        scene_free(s);
+        body->leaves = mem_realloc(body->leaves, body->leaf_count * sizeof *body->leaves);
+    }
+    expr_build(&body->expr, e->tokens, e->token_count, body->leaf_count);
+    free(e->tokens);
+}
+
 // Regions of interest, and the expression without the leaves that have none.
 static void restrict_leaves(struct body *body, const bool *intersected, bool wanted,
                             struct box *bounds)
 {
     uint32_t count = body->leaf_count;
-    struct box *boxes = mem_alloc(count * sizeof *boxes);
-    bool *keep = mem_alloc(count);
+    bool *keep = mem_alloc(count), drop = false;
     body->roi = mem_alloc(count * sizeof *body->roi);
     for (uint32_t i = 0; i < count; i++)
-        boxes[i] = body->leaves[i].box;
-    roi_build(body->roi, &body->expr, boxes);
+        body->roi[i] = body->leaves[i].box;
+    roi_build(body->roi, &body->expr, body->roi);
     for (uint32_t i = 0; i < count; i++) {
+        bool stands = body->expr.leaf_node[i] != EXPR_NONE;
         keep[i] = !box_is_empty(body->roi[i]);
-        if (keep[i] && intersected[i] && body->expr.leaf_node[i] != EXPR_NONE)
-            *bounds = box_union(*bounds, boxes[i]);
+        drop |= stands && !keep[i];
+        if (keep[i] && intersected[i] && stands)
+            *bounds = box_union(*bounds, body->leaves[i].box);
     }
-    if (wanted) {
+    if (wanted && drop) {
         struct expr all = body->expr;
         expr_without(&body->expr, &all, keep);
         expr_free(&all);
-    } else
-        memcpy(body->roi, boxes, count * sizeof *boxes);
-    free(boxes);
+    }
+    for (uint32_t i = 0; i < count && !wanted; i++)
+        body->roi[i] = body->leaves[i].box;
     free(keep);
 }
 
-void body_build(struct body *out, enum body_kind kind, const struct builder *b,
+void body_build(struct body *out, enum body_kind kind, struct builder *b,
                 const struct model_options *options, const uint32_t *terms, uint32_t term_count,
                 struct box *intersected)
 {
     *out = (struct body){.kind = kind};
     struct emitter e = {.b = b, .body = out};
-    for (uint32_t i = 0; i < term_count; i++)
-        emit(&e, terms[i]);
-    put_token(&e, EXPR_UNION, term_count);
-    expr_build(&out->expr, e.tokens, e.token_count, out->leaf_count);
+    emit_all(&e, terms, term_count);
     restrict_leaves(out, e.intersected, options->roi, intersected);
 
     bool *convex = mem_alloc(out->leaf_count);
@@ -157,8 +176,6 @@ void body_build(struct body *out, enum body_kind kind, const struct builder *b,
     sharing_build(&out->sharing, &out->expr, convex, options->share);
     out->table = discovery_new(&out->expr, &out->sharing);
     free(convex);
-    free(e.tokens);
-    free(e.todo);
     free(e.intersected);
 }
 

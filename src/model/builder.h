@@ -40,8 +40,8 @@ static inline struct place builder_place(const struct builder *b, const struct c
 // walk.c: fills b->scene from the tree.
 void builder_walk(struct builder *b);
 
-// body.c: one body of the given terms in union.
-void body_build(struct body *out, enum body_kind kind, const struct builder *b,
+// body.c: one body of the given terms in union. The main body takes the leaves of the scene.
+void body_build(struct body *out, enum body_kind kind, struct builder *b,
                 const struct model_options *options, const uint32_t *terms, uint32_t term_count,
                 struct box *intersected);
 void body_free(struct body *body);

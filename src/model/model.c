@@ -28,18 +28,18 @@ double model_epsilon(const struct model *m, double asked)
 static void thicken_sheets(struct scene *s, double epsilon)
 {
     struct box all = BOX_EMPTY;
-    for (uint32_t i = 0; i < s->placed_count; i++)
-        all = box_union(all, box_transformed(s->placed[i].solid->bounds, &s->placed[i].to_world));
+    for (uint32_t i = 0; i < s->leaf_count; i++)
+        all = box_union(all, box_transformed(s->leaves[i].solid->bounds, &s->leaves[i].to_world));
     double thickness = 4 * (epsilon > 0 ? epsilon : default_epsilon(all));
-    for (uint32_t i = 0; i < s->placed_count; i++) {
-        struct placed *p = &s->placed[i];
-        if (sheet_is_flat(&p->to_world) &&
-            !sheet_thicken(&p->to_world, p->solid->bounds, thickness))
-            p->solid = NULL;
+    for (uint32_t i = 0; i < s->leaf_count; i++) {
+        struct leaf *leaf = &s->leaves[i];
+        if (sheet_is_flat(&leaf->to_world) &&
+            !sheet_thicken(&leaf->to_world, leaf->solid->bounds, thickness))
+            leaf->solid = NULL;
     }
 }
 
-static void add_bodies(struct model *m, enum body_kind kind, const struct builder *b,
+static void add_bodies(struct model *m, enum body_kind kind, struct builder *b,
                        const struct model_options *options, const struct term_list *terms)
 {
     for (uint32_t i = 0, alone = 0; i < terms->count && !builder_cancelled(b); alone++) {
@@ -93,10 +93,11 @@ void model_build(struct model *out, const struct csg_tree *tree, struct solid_st
     // Tables borrow from their bodies, so the array must not move once it is being filled.
     size_t most = 1 + 2 * BODIES_MAX;
     out->bodies = mem_zalloc(most * sizeof *out->bodies);
-    struct term_list main_term = {.items = &b.scene.root, .count = 1};
-    add_bodies(out, BODY_MAIN, &b, options, &main_term);
+    out->body_count = 1; // the main body is made last: it takes the scene's leaves over
     add_bodies(out, BODY_BACKGROUND, &b, options, &b.scene.backgrounds);
     add_bodies(out, BODY_HIGHLIGHT, &b, options, &b.scene.highlights);
+    if (!builder_cancelled(&b))
+        body_build(&out->bodies[0], BODY_MAIN, &b, options, &b.scene.root, 1, &out->bounds);
     count_stats(out, &b);
     move_imports(out, &b);
 

@@ -19,11 +19,11 @@ static void list_add(struct term_list *l, uint32_t term)
     l->items[l->count++] = term;
 }
 
-uint32_t scene_leaf(struct scene *s, const struct placed *p)
+uint32_t scene_leaf(struct scene *s, const struct leaf *leaf)
 {
-    array_reserve(&s->placed, &s->placed_room, (size_t)s->placed_count + 1);
-    s->placed[s->placed_count] = *p;
-    return add_term(s, (struct term){.op = TERM_LEAF, .left = s->placed_count++});
+    array_reserve(&s->leaves, &s->leaf_room, (size_t)s->leaf_count + 1);
+    s->leaves[s->leaf_count] = *leaf;
+    return add_term(s, (struct term){.op = TERM_LEAF, .left = s->leaf_count++});
 }
 
 void scene_mark(struct scene *s, uint32_t term, uint8_t marks)
@@ -122,7 +122,7 @@ void scene_finish(struct scene *s, uint32_t root)
 
 void scene_free(struct scene *s)
 {
-    free(s->placed);
+    free(s->leaves);
     free(s->terms);
     free(s->backgrounds.items);
     free(s->highlights.items);

@@ -1,15 +1,6 @@
 // term.h - placed shapes and the operations between them, with the marks % and #.
 #pragma once
-#include "base/vec.h"
-#include "geom/solid.h"
-
-// A shape where it stands. A solid of NULL is the empty set.
-struct placed {
-    const struct solid *solid;
-    struct affine to_world;
-    float colour[4]; // a component below 0 is not set
-    uint32_t line, column;
-};
+#include "model/model.h"
 
 enum term_op { TERM_LEAF, TERM_UNION, TERM_INTERSECTION, TERM_DIFFERENCE };
 
@@ -20,7 +11,7 @@ struct term {
     uint8_t op;     // enum term_op
     uint8_t marks;  // CSG_BACKGROUND, CSG_HIGHLIGHT
     bool rendered;  // came from render(): its cut faces look like its others
-    uint32_t left;  // operand; LEAF: number of the placed shape
+    uint32_t left;  // operand; LEAF: number of the leaf
     uint32_t right; // operand
 };
 
@@ -29,16 +20,16 @@ struct term_list {
     uint32_t count, room;
 };
 
-struct scene { // {0} is empty
-    struct placed *placed;
-    uint32_t placed_count, placed_room;
+struct scene {           // {0} is empty
+    struct leaf *leaves; // what body.c adds to them is not there yet; a solid of NULL is empty
+    uint32_t leaf_count, leaf_room;
     struct term *terms;
     uint32_t term_count, term_room;
     uint32_t root; // the picture's solid part
     struct term_list backgrounds, highlights;
 };
 
-uint32_t scene_leaf(struct scene *s, const struct placed *p);
+uint32_t scene_leaf(struct scene *s, const struct leaf *leaf);
 void scene_mark(struct scene *s, uint32_t term, uint8_t marks);
 uint32_t scene_marks(const struct scene *s, uint32_t term);
 void scene_rendered(struct scene *s, uint32_t term);

@@ -150,19 +150,18 @@ static void visit_shape(struct walk *w, const struct csg_node *n, const struct n
         fold(w, TERM_EMPTY);
         return;
     }
-    struct placed p = {.solid = solid,
-                       .to_world = affine_mul(&w->matrices[f->matrix], &place),
-                       .line = n->line,
-                       .column = n->column};
-    memcpy(p.colour, w->colours[f->colour].c, sizeof p.colour);
-    struct box box = box_transformed(solid->bounds, &p.to_world);
+    struct leaf leaf = {.solid = solid,
+                        .to_world = affine_mul(&w->matrices[f->matrix], &place),
+                        .place = builder_place(w->b, n)};
+    memcpy(leaf.colour, w->colours[f->colour].c, sizeof leaf.colour);
+    struct box box = box_transformed(solid->bounds, &leaf.to_world);
     if (!(fmin(box.min.x, fmin(box.min.y, box.min.z)) >= -largest &&
           fmax(box.max.x, fmax(box.max.y, box.max.z)) <= largest)) {
         builder_warn(w->b, n, "%s() is too large or too far away to be drawn; left out", n->name);
         fold(w, TERM_EMPTY);
         return;
     }
-    uint32_t term = scene_leaf(&w->b->scene, &p);
+    uint32_t term = scene_leaf(&w->b->scene, &leaf);
     mark(w, n, term);
     fold(w, term);
 }
