@@ -37,9 +37,9 @@ struct span_block {
 
 enum walk {
     WALK_AUTO,
-    WALK_HASH,
-    WALK_ARRAY
-}; // ARRAY: whole expression per interval, for the bench
+    WALK_HASH,  // first surfaces too by listed crossings
+    WALK_ARRAY, // the same, with the whole expression for each interval; for the bench
+};
 
 struct render_settings {
     double epsilon;   // intervals thinner than this across their faces do not exist, mm
