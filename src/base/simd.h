@@ -20,6 +20,20 @@ static inline v4d v4_set(double a)
     return (v4d){a, a, a, a};
 }
 
+// x within [-limit, limit].
+static inline v4d v4_clamp(v4d x, double limit)
+{
+#ifdef __AVX__
+    x = (v4d)_mm256_min_pd((__m256d)x, (__m256d)v4_set(limit));
+    return (v4d)_mm256_max_pd((__m256d)x, (__m256d)v4_set(-limit));
+#else
+    v4l low = x < v4_set(limit);
+    x = (v4d)(((v4l)x & low) | ((v4l)v4_set(limit) & ~low));
+    v4l high = x > v4_set(-limit);
+    return (v4d)(((v4l)x & high) | ((v4l)v4_set(-limit) & ~high));
+#endif
+}
+
 static inline v8f v8_set(float a)
 {
     return (v8f){a, a, a, a, a, a, a, a};

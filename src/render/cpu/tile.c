@@ -16,7 +16,7 @@ void tile_init(struct tile *t, struct tile_room room, uint32_t worker)
 {
     *t = (struct tile){.worker = worker, .room = room};
     uint32_t most = room.planes + 8;
-    size_t planes = room.memory / 8 / 52, slots = room.memory / 4 / sizeof(struct block_leaf);
+    size_t planes = room.memory / 8 / 56, slots = room.memory / 4 / sizeof(struct block_leaf);
     planes = planes < 4 * (size_t)most ? 4 * (size_t)most : planes;
     planes = planes > 1 << 16 ? (1 << 16 > 4 * most ? 1 << 16 : 4 * most) : planes;
     slots = slots < 16 ? 16 : slots > 2048 ? 2048 : slots;
@@ -24,31 +24,34 @@ void tile_init(struct tile *t, struct tile_room room, uint32_t worker)
     t->planes.a = mem_zalloc((planes + 8) * 4); // vectors may read past the last one
     t->planes.b = mem_zalloc((planes + 8) * 4);
     t->planes.c = mem_zalloc((planes + 8) * 4);
+    t->planes.slack = mem_zalloc((planes + 8) * 4);
     t->planes.steep = mem_zalloc((planes + 8) * 4);
     t->planes.steep_x = mem_zalloc((planes + 8) * 4);
     t->planes.steep_y = mem_zalloc((planes + 8) * 4);
     t->planes.face = mem_aligned(32, planes * 4);
     t->planes.exact = mem_alloc(planes * sizeof *t->planes.exact);
-    t->exact = mem_alloc(most * sizeof *t->exact);
+    for (size_t i = 0; i < array_count(t->exact); i++)
+        t->exact[i] = mem_aligned(32, most * sizeof(double));
     t->slot_size = (uint32_t)slots;
     t->slots = mem_aligned(64, slots * sizeof *t->slots);
     t->index_size = most * 2 > 1 << 16 ? most * 2 : 1 << 16;
     t->index = mem_alloc(t->index_size * sizeof *t->index);
     t->key = mem_alloc(t->index_size * sizeof *t->key);
-    for (int i = 0; i < 4; i++)
+    for (size_t i = 0; i < array_count(t->scratch); i++)
         t->scratch[i] = mem_aligned(32, most * sizeof(float));
     t->list.a = mem_aligned(32, most * sizeof(float));
     t->list.b = mem_aligned(32, most * sizeof(float));
     t->list.c = mem_aligned(32, most * sizeof(float));
+    t->list.slack = mem_aligned(32, most * sizeof(float));
     t->list.id = mem_aligned(32, most * sizeof *t->list.id);
 }
 
 size_t tile_bytes(const struct tile *t)
 {
-    size_t plane = 7 * sizeof(float) + sizeof(struct plane_exact);
+    size_t plane = 8 * sizeof(float) + sizeof(struct plane_exact);
     return t->planes.size * plane + t->slot_size * sizeof *t->slots +
            t->index_size * (sizeof *t->index + sizeof *t->key) +
-           (t->room.planes + 8) * (8 * sizeof(float) + sizeof *t->exact) +
+           (t->room.planes + 8) * (13 * sizeof(float) + 3 * sizeof(double)) +
            t->leaf_capacity * sizeof *t->leaves +
            t->mesh.crossing_capacity * sizeof *t->mesh.crossings +
            t->mesh.sorted_capacity * sizeof *t->mesh.sorted +
@@ -60,20 +63,23 @@ void tile_free(struct tile *t)
     free(t->planes.a);
     free(t->planes.b);
     free(t->planes.c);
+    free(t->planes.slack);
     free(t->planes.steep);
     free(t->planes.steep_x);
     free(t->planes.steep_y);
     free(t->planes.face);
     free(t->planes.exact);
-    free(t->exact);
+    for (size_t i = 0; i < array_count(t->exact); i++)
+        free(t->exact[i]);
     free(t->slots);
     free(t->index);
     free(t->key);
-    for (int i = 0; i < 4; i++)
+    for (size_t i = 0; i < array_count(t->scratch); i++)
         free(t->scratch[i]);
     free(t->list.a);
     free(t->list.b);
     free(t->list.c);
+    free(t->list.slack);
     free(t->list.id);
     free(t->leaves);
     free(t->mesh.crossings);
@@ -160,18 +166,24 @@ static struct local_rays local_rays(const struct tile *t, const struct leaf *lea
     return r;
 }
 
-// A key as a float that stays finite in products with pixel offsets.
+INLINE v8f load(const float *p)
+{
+    v8f v;
+    memcpy(&v, p, sizeof v);
+    return v;
+}
+
+// A key that stays finite as a float, in products with pixel offsets too.
 INLINE float limited(double key)
 {
-    float f = (float)key;
-    f = f > KEY_LIMIT ? KEY_LIMIT : f;
-    return f < -KEY_LIMIT ? -KEY_LIMIT : f;
+    key = key < KEY_LIMIT ? key : KEY_LIMIT;
+    return (float)(key > -KEY_LIMIT ? key : -KEY_LIMIT);
 }
 
 INLINE void put(float *out, v4d v)
 {
-    for (int i = 0; i < 4; i++)
-        out[i] = limited(v[i]);
+    v4f f = __builtin_convertvector(v4_clamp(v, KEY_LIMIT), v4f);
+    memcpy(out, &f, sizeof f);
 }
 
 // Key planes of all faces of a convex leaf: scratch 0..2 = a, b, c; scratch 3 below 0: front. All
@@ -210,8 +222,16 @@ static void make_planes(struct tile *t, const struct planes *p, const struct loc
         put(t->scratch[1] + i, b);
         put(t->scratch[2] + i, c);
         put(t->scratch[3] + i, den);
-        for (int k = 0; k < 4; k++)
-            t->exact[i + (uint32_t)k] = (struct plane_exact){a[k], b[k], c[k]};
+        memcpy(t->exact[0] + i, &a, sizeof a);
+        memcpy(t->exact[1] + i, &b, sizeof b);
+        memcpy(t->exact[2] + i, &c, sizeof c);
+    }
+    // What float keys may be off by anywhere in the tile, with a margin.
+    for (uint32_t i = 0; i < p->padded; i += 8) {
+        v8f slack = v8_abs(load(t->scratch[0] + i)) +
+                    (v8_abs(load(t->scratch[1] + i)) + v8_abs(load(t->scratch[2] + i))) * REACH;
+        slack *= 8e-7f;
+        memcpy(t->scratch[4] + i, &slack, sizeof slack);
     }
 }
 
@@ -219,20 +239,13 @@ static void list_pad(struct plane_list *l)
 {
     for (uint32_t i = l->n; i % 8; i++) {
         l->a[i] = -FLT_MAX;
-        l->b[i] = l->c[i] = 0;
+        l->b[i] = l->c[i] = l->slack[i] = 0;
     }
-}
-
-INLINE v8f load(const float *p)
-{
-    v8f v;
-    memcpy(&v, p, sizeof v);
-    return v;
 }
 
 // Where a list is compressed from: arrays with a sign, and lanes to be left out.
 struct plane_source {
-    const float *a, *b, *c;
+    const float *a, *b, *c, *slack;
     const float *side; // takes lanes in which side * sign < 0; NULL takes all
     uint32_t id, n;    // number of the first plane
     float sign;        // 1 front planes, -1 back planes
@@ -265,29 +278,33 @@ INLINE uint32_t largest_at(const struct plane_source *s, float x, float y)
 // Plane q hides p when its key is larger in the whole square of half-width h around (x, y), with a
 // margin for rounding.
 struct hidden_by {
-    float a, b, c, x, y, h, sign, centre, slack;
+    v8f a, b, c, x, y, h, sign, centre, slack;
 };
 
 INLINE struct hidden_by hidden_by(const struct plane_source *s, uint32_t q, float x, float y,
                                   float h)
 {
-    struct hidden_by k = {.a = s->a[q], .b = s->b[q], .c = s->c[q], .x = x, .y = y, .h = h};
-    k.sign = s->sign;
-    k.centre = (k.a + k.b * x) + k.c * y;
-    k.slack = -4e-7f * (fabsf(k.centre) + fabsf(k.a) + (fabsf(k.b) + fabsf(k.c)) * REACH);
-    return k;
+    float centre = (s->a[q] + s->b[q] * x) + s->c[q] * y;
+    return (struct hidden_by){.a = v8_set(s->a[q]),
+                              .b = v8_set(s->b[q]),
+                              .c = v8_set(s->c[q]),
+                              .x = v8_set(x),
+                              .y = v8_set(y),
+                              .h = v8_set(h),
+                              .sign = v8_set(s->sign),
+                              .centre = v8_set(centre),
+                              .slack = v8_set(-s->slack[q])};
 }
 
 // Bit i: plane i of the eight that begin at `at` is on the source's side and not hidden.
 INLINE int shown(const struct hidden_by *k, const struct plane_source *s, uint32_t at)
 {
     v8f a = load(s->a + at), b = load(s->b + at), c = load(s->c + at);
-    v8f centre = (a + b * k->x) + c * k->y;
-    v8f ahead = k->sign * (centre - k->centre) + (v8_abs(b - k->b) + v8_abs(c - k->c)) * k->h +
-                4e-7f * (v8_abs(centre) + v8_abs(a) + (v8_abs(b) + v8_abs(c)) * REACH);
-    v8i keep = ahead >= v8_set(k->slack); // equal where all numbers are 0, as for q itself
+    v8f ahead = k->sign * (((a + b * k->x) + c * k->y) - k->centre) +
+                (v8_abs(b - k->b) + v8_abs(c - k->c)) * k->h + load(s->slack + at);
+    v8i keep = ahead >= k->slack; // equal where all numbers are 0, as for q itself
     if (s->side)
-        keep &= load(s->side + at) * s->sign < v8_set(0);
+        keep &= load(s->side + at) * k->sign < v8_set(0);
     int bits = v8_bits(keep);
     return s->n - at < 8 ? bits & ((1 << (s->n - at)) - 1) : bits;
 }
@@ -316,6 +333,7 @@ INLINE void list_take(struct plane_list *out, const struct plane_source *s, cons
             out->a[kept] = s->sign * s->a[p];
             out->b[kept] = s->sign * s->b[p];
             out->c[kept] = s->sign * s->c[p];
+            out->slack[kept] = s->slack[p];
             out->id[kept++] = ids ? ids[p] : s->id + p;
         }
     out->n = kept;
@@ -332,6 +350,7 @@ INLINE void list_split(struct plane_list *out, const struct plane_source *s)
         out->a[out->n] = s->a[i] * s->sign;
         out->b[out->n] = s->b[i] * s->sign;
         out->c[out->n] = s->c[i] * s->sign;
+        out->slack[out->n] = s->slack[i];
         out->id[out->n++] = i;
     }
     list_pad(out);
@@ -348,7 +367,8 @@ INLINE void cull_planes(struct plane_list *out, const struct plane_source *s, fl
     if (q == UINT32_MAX)
         return;
     list_take(out, s, NULL, q, x, y, h);
-    struct plane_source rest = {.a = out->a, .b = out->b, .c = out->c, .sign = 1};
+    struct plane_source rest = {
+        .a = out->a, .b = out->b, .c = out->c, .slack = out->slack, .sign = 1};
     for (int k = 1; k < 5 && out->n > enough; k++) {
         rest.n = out->n;
         q = largest_at(&rest, x + h * cx[k], y + h * cy[k]);
@@ -386,8 +406,13 @@ static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t eno
                        uint32_t *count)
 {
     struct plane_pool *pool = &t->planes;
-    struct plane_source source = {t->scratch[0], t->scratch[1], t->scratch[2], t->scratch[3], 0,
-                                  planes,        sign};
+    struct plane_source source = {.a = t->scratch[0],
+                                  .b = t->scratch[1],
+                                  .c = t->scratch[2],
+                                  .side = t->scratch[3],
+                                  .slack = t->scratch[4],
+                                  .n = planes,
+                                  .sign = sign};
     struct plane_list list = t->list;
     v8f h = v8_set(0.5f * TILE), bound = v8_set(-FLT_MAX), flip = v8_set(sign);
 
@@ -405,10 +430,14 @@ static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t eno
         memcpy(pool->a + pool->used + i, &a, sizeof a);
         memcpy(pool->b + pool->used + i, &b, sizeof b);
         memcpy(pool->c + pool->used + i, &c, sizeof c);
+        memcpy(pool->slack + pool->used + i, list.slack + i, sizeof c);
     }
     memcpy(pool->face + pool->used, list.id, list.n * sizeof *pool->face);
-    for (uint32_t i = 0; i < list.n; i++)
-        pool->exact[pool->used + i] = t->exact[list.id[i]];
+    for (uint32_t i = 0; i < list.n; i++) {
+        uint32_t p = list.id[i];
+        pool->exact[pool->used + i] =
+            (struct plane_exact){t->exact[0][p], t->exact[1][p], t->exact[2][p]};
+    }
     pool->used += list.n;
     *count = list.n;
     return list.n ? sign * v8_highest(bound) : sign > 0 ? t->frame->start : t->frame->end;
@@ -479,8 +508,14 @@ static uint32_t block_side(struct tile *t, uint32_t first, uint32_t n, float sig
         return n;
     }
     const struct plane_pool *pool = &t->planes;
-    struct plane_source source = {
-        pool->a + first, pool->b + first, pool->c + first, NULL, first, n, sign};
+    struct plane_source source = {pool->a + first,
+                                  pool->b + first,
+                                  pool->c + first,
+                                  pool->slack + first,
+                                  NULL,
+                                  first,
+                                  n,
+                                  sign};
     return list_numbers(index, &source, largest_at(&source, t->mx, t->my), t->mx, t->my,
                         0.5f * BLOCK);
 }

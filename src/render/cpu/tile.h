@@ -57,7 +57,7 @@ struct plane_exact {
     double a, b, c;
 };
 struct plane_pool {
-    float *a, *b, *c;
+    float *a, *b, *c, *slack;
     struct plane_exact *exact;
     // n . direction, thickness across the face per depth: steep + steep_x x + steep_y y
     float *steep, *steep_x, *steep_y;
@@ -68,7 +68,7 @@ struct plane_pool {
 // Planes as key functions, negated for exits, so that in a list the largest key always counts.
 // Padded with planes that are nowhere the largest.
 struct plane_list {
-    float *a, *b, *c;
+    float *a, *b, *c, *slack; // slack bounds the rounding of the key
     uint32_t *id;
     uint32_t n;
 };
@@ -145,9 +145,9 @@ struct tile {
     uint32_t index_used, index_size;
 
     struct mesh_pool mesh;
-    float *scratch[4];         // planes_most floats each
-    struct plane_exact *exact; // planes_most
-    struct plane_list list;    // room for planes_most
+    float *scratch[5];      // planes_most floats each
+    double *exact[3];       // planes_most
+    struct plane_list list; // room for planes_most
 
     struct query *query;
     struct walk_lists *lists;
