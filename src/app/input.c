@@ -6,23 +6,23 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-const char input_help[] = "left drag              turn\n"
-                          "shift + left drag      roll\n"
-                          "right drag             move\n"
-                          "middle drag            move along the view\n"
-                          "shift + right drag     zoom\n"
-                          "wheel, + -             zoom\n"
-                          "4 5 6 7 8 9            top bottom left right front back\n"
-                          "0                      diagonal\n"
-                          "v, Ctrl+Shift+V        view all\n"
-                          "r                      reset view\n"
-                          "o                      orthographic on and off\n"
-                          "c                      print the camera for --camera\n"
-                          "p                      save the picture as PNG\n"
-                          "m                      messages on and off\n"
-                          "F5                     load again\n"
-                          "h                      this help on and off\n"
-                          "q, Ctrl+Q              quit";
+const char input_help[] = "left drag           turn\n"
+                          "shift + left drag   roll\n"
+                          "right drag          move\n"
+                          "middle drag         move along the view\n"
+                          "shift + right drag  zoom\n"
+                          "wheel, + -          zoom\n"
+                          "4 5 6 7 8 9         top bottom left right front back\n"
+                          "0                   diagonal\n"
+                          "v, Ctrl+Shift+V     view all\n"
+                          "r                   reset view\n"
+                          "o                   orthographic on and off\n"
+                          "c                   print the camera for --camera\n"
+                          "p                   save the picture as PNG\n"
+                          "m                   messages on and off\n"
+                          "F5                  load again\n"
+                          "h                   this help on and off\n"
+                          "q, Ctrl+Q           quit";
 
 static void look_along(struct input *in, double x, double y, double z)
 {

@@ -10,6 +10,7 @@
 #include "scad/openscad.h"
 
 #include <errno.h>
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,6 +38,7 @@ struct loader {
     uint32_t loads;
     double noticed;    // of the load under way
     double failed;     // `noticed` of the newest that failed
+    double exporting;  // since when openscad runs
     uint64_t retry_ms; // before the next try
     bool patient;      // failures may pass
 
@@ -132,10 +134,10 @@ static void follow_design(struct loader *l, const struct scad_result *result, bo
         forget_files(l);
     for (uint32_t i = 0; i < result->file_count; i++)
         follow_file(l, result->files[i]);
-    watch_set(l->watch, l->files, l->file_count);
+    watch_set(l->watch, l->files, l->file_count, l->exporting);
 }
 
-static void follow_imports(struct loader *l, const struct model *m)
+static void follow_imports(struct loader *l, const struct model *m, double since)
 {
     if (!l->watch || l->is_scad)
         return;
@@ -143,7 +145,7 @@ static void follow_imports(struct loader *l, const struct model *m)
     follow_file(l, l->options.path);
     for (uint32_t i = 0; i < m->import_count; i++)
         follow_file(l, m->imports[i]);
-    watch_set(l->watch, l->files, l->file_count);
+    watch_set(l->watch, l->files, l->file_count, since);
 }
 
 static void on_built(void *context, struct build_task *task)
@@ -159,7 +161,7 @@ static void on_built(void *context, struct build_task *task)
         fail(l, &task->messages);
         return;
     }
-    follow_imports(l, &s->model);
+    follow_imports(l, &s->model, task->times.started);
     s->times = task->times;
     s->number = ++l->loads;
     s->loader = l;
@@ -198,6 +200,7 @@ static void begin(struct loader *l)
     if (!l->is_scad) {
         build_ask(l->build, &task);
     } else if (access(task.name, F_OK) == 0) {
+        l->exporting = clock_seconds();
         l->job = scad_start(&l->loop, l->options.path, l->options.openscad, on_exported, l);
         publish(l, NULL, NULL, false, true);
     } else if (!try_again(l)) {
@@ -272,7 +275,7 @@ static void run(void *context)
     if (l->options.watch) {
         l->watch = watch_new(&l->loop, on_saved, l);
         follow_file(l, l->options.path);
-        watch_set(l->watch, l->files, l->file_count);
+        watch_set(l->watch, l->files, l->file_count, INFINITY); // nothing was read yet
     }
     load(l, clock_seconds());
     uv_run(&l->loop, UV_RUN_DEFAULT);

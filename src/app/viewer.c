@@ -164,7 +164,7 @@ static void save_picture(struct viewer *v)
         snprintf(v->note, sizeof v->note, "saved %s", path);
     } else {
         fprintf(stderr, "hcsg-view: %s\n", err.text);
-        snprintf(v->note, sizeof v->note, "%s", err.text);
+        snprintf(v->note, sizeof v->note, "cannot save the picture: %s", err.text);
     }
     fflush(stdout);
     show_state(v);

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <uv.h>
 
 // One write gives several events within microseconds. A file written in pieces is left alone while
@@ -188,22 +189,56 @@ static uint32_t find_folder(struct watch *w, struct folder **old, uint32_t old_c
     return w->folder_count++;
 }
 
-static void add_target(struct watch *w, struct folder **old, uint32_t old_count, const char *path)
+// File systems tell the time in steps of a few milliseconds.
+static bool changed_since(const char *path, double since)
 {
-    array_reserve(&w->targets, &w->target_capacity, w->target_count + 1);
-    uint32_t folder = find_folder(w, old, old_count, file_folder(path));
-    w->targets[w->target_count++] = (struct target){mem_strdup(path), folder, stamp_of(path)};
+    static const double step = 0.02;
+    struct stat st;
+    struct timespec now;
+    if (stat(path, &st) != 0 || clock_gettime(CLOCK_REALTIME, &now) != 0)
+        return false;
+    double age = (double)(now.tv_sec - st.st_ctim.tv_sec) +
+                 1e-9 * (double)(now.tv_nsec - st.st_ctim.tv_nsec);
+    return age < clock_seconds() - since + step;
 }
 
-static void forget_targets(struct watch *w)
+// What was watched before the new files are.
+struct former {
+    struct folder **folders;
+    struct target *targets;
+    uint32_t folder_count, target_count;
+    double since;
+};
+
+static void add_target(struct watch *w, struct former *old, const char *path)
 {
-    for (uint32_t i = 0; i < w->target_count; i++)
-        free(w->targets[i].path);
+    array_reserve(&w->targets, &w->target_capacity, (size_t)w->target_count + 1);
+    uint32_t folder = find_folder(w, old->folders, old->folder_count, file_folder(path));
+    struct target t = {mem_strdup(path), folder, stamp_of(path)};
+    uint32_t i = 0;
+    while (i < old->target_count && strcmp(old->targets[i].path, path) != 0)
+        i++;
+    if (i < old->target_count)
+        t.stamp = old->targets[i].stamp;
+    else if (changed_since(path, old->since))
+        notice(w);
+    w->targets[w->target_count++] = t;
+}
+
+static void free_targets(struct target *targets, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        free(targets[i].path);
+    free(targets);
+}
+
+static void forget_paths(struct watch *w)
+{
     for (uint32_t i = 0; i < w->path_count; i++)
         free(w->paths[i]);
     free(w->paths);
     w->paths = NULL;
-    w->target_count = w->path_count = 0;
+    w->path_count = 0;
 }
 
 static bool same_paths(const struct watch *w, char *const *paths, uint32_t count)
@@ -216,30 +251,31 @@ static bool same_paths(const struct watch *w, char *const *paths, uint32_t count
     return true;
 }
 
-void watch_set(struct watch *w, char *const *paths, uint32_t count)
+void watch_set(struct watch *w, char *const *paths, uint32_t count, double since)
 {
     if (same_paths(w, paths, count))
         return;
-    forget_targets(w);
-    struct folder **old = w->folders;
-    uint32_t old_count = w->folder_count;
+    struct former old = {w->folders, w->targets, w->folder_count, w->target_count, since};
+    forget_paths(w);
     w->folders = NULL;
-    w->folder_count = w->folder_capacity = 0;
+    w->targets = NULL;
+    w->folder_count = w->folder_capacity = w->target_count = w->target_capacity = 0;
     w->paths = mem_alloc(count * sizeof *w->paths + 1);
     w->path_count = count;
     for (uint32_t i = 0; i < count; i++) {
         w->paths[i] = mem_strdup(paths[i]);
-        add_target(w, old, old_count, paths[i]);
+        add_target(w, &old, paths[i]);
         char *real = realpath(paths[i], NULL); // a link: the file behind it changes elsewhere
         struct stat st;
         if (real && lstat(paths[i], &st) == 0 && S_ISLNK(st.st_mode))
-            add_target(w, old, old_count, real);
+            add_target(w, &old, real);
         free(real);
     }
-    for (uint32_t i = 0; i < old_count; i++)
-        if (old[i])
-            close_folder(old[i]);
-    free(old);
+    for (uint32_t i = 0; i < old.folder_count; i++)
+        if (old.folders[i])
+            close_folder(old.folders[i]);
+    free(old.folders);
+    free_targets(old.targets, old.target_count);
 }
 
 static void on_timer_closed(uv_handle_t *handle)
@@ -255,8 +291,8 @@ void watch_delete(struct watch *w)
         return;
     for (uint32_t i = 0; i < w->folder_count; i++)
         close_folder(w->folders[i]);
-    forget_targets(w);
-    free(w->targets);
+    forget_paths(w);
+    free_targets(w->targets, w->target_count);
     free(w->folders);
     uv_close((uv_handle_t *)&w->settle, on_timer_closed);
     uv_close((uv_handle_t *)&w->look, on_timer_closed);

@@ -13,7 +13,8 @@ struct watch;
 // clock_seconds of the first event.
 struct watch *watch_new(struct uv_loop_s *loop, void (*saved)(void *context, double noticed),
                         void *context);
-// Watches these files and no others. Does nothing when they are the ones already watched.
-void watch_set(struct watch *w, char *const *paths, uint32_t count);
+// Watches these files and no others. Does nothing when they are the ones already watched. Files
+// that are new among them and changed after `since` (clock_seconds) count as saved.
+void watch_set(struct watch *w, char *const *paths, uint32_t count, double since);
 // The watch is gone once the loop has run.
 void watch_delete(struct watch *w);

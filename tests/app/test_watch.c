@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -64,12 +65,17 @@ static int seen_within(uint64_t ms)
     return saves;
 }
 
-static void watch_files(const char *a, const char *b)
+static void watch_since(const char *a, const char *b, double since)
 {
     char *paths[2] = {path_of(a), b ? path_of(b) : NULL};
-    watch_set(watch, paths, b ? 2 : 1);
+    watch_set(watch, paths, b ? 2 : 1, since);
     free(paths[0]);
     free(paths[1]);
+}
+
+static void watch_files(const char *a, const char *b)
+{
+    watch_since(a, b, INFINITY);
 }
 
 static int begin(void **state)
@@ -202,6 +208,29 @@ static void watching_can_change(void **state)
 
 #define TEST(f) cmocka_unit_test_setup_teardown(f, begin, end)
 
+static void what_changed_before_it_was_known_counts(void **state)
+{
+    (void)state;
+    double before = clock_seconds();
+    put("b.csg", "one");
+    watch_since("a.csg", "b.csg", before);
+    assert_int_equal(seen_within(50), 1);
+    watch_since("a.csg", "c.csg", before); // not there
+    assert_int_equal(seen_within(50), 0);
+    put("c.csg", "one");
+    watch_since("a.csg", "b.csg", INFINITY);
+    assert_int_equal(seen_within(50), 0);
+}
+
+static void a_save_is_not_lost_while_files_are_set(void **state)
+{
+    (void)state;
+    assert_int_equal(seen_within(30), 0);
+    put("a.csg", "two");
+    watch_files("a.csg", "b.csg");
+    assert_int_equal(seen_within(50), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -213,6 +242,8 @@ int main(void)
         TEST(a_link_is_followed),
         TEST(a_folder_may_come_later_and_go),
         TEST(watching_can_change),
+        TEST(what_changed_before_it_was_known_counts),
+        TEST(a_save_is_not_lost_while_files_are_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
