@@ -1,4 +1,4 @@
-// loader.c - reads the file, builds its model and follows both, on a thread of its own.
+// loader.c - follows the file and hands over the models made of it, on a thread of its own.
 #include "app/loader.h"
 
 #include "app/build.h"

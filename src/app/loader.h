@@ -1,4 +1,4 @@
-// loader.h - reads the file, builds its model and follows both, on a thread of its own.
+// loader.h - follows the file and hands over the models made of it, on a thread of its own.
 #pragma once
 #include "model/model.h"
 #include "render/shade.h"
