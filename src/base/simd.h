@@ -3,6 +3,7 @@
 // Everything here means the same on every processor: without AVX the compiler splits each
 // operation.
 #pragma once
+#include <math.h>
 #include <stdint.h>
 #ifdef __AVX__
 #include <immintrin.h>
@@ -91,6 +92,30 @@ static inline int v8_bits(v8i mask)
     for (int i = 0; i < 8; i++)
         bits |= (mask[i] & 1) << i;
     return bits;
+#endif
+}
+
+static inline v8f v8_sqrt(v8f a)
+{
+#ifdef __AVX__
+    return (v8f)_mm256_sqrt_ps((__m256)a);
+#else
+    for (int i = 0; i < 8; i++)
+        a[i] = sqrtf(a[i]);
+    return a;
+#endif
+}
+
+// Lane i of the result is lane order[i] of a.
+static inline v8f v8_permute(v8f a, v8i order)
+{
+#ifdef __AVX2__
+    return (v8f)_mm256_permutevar8x32_ps((__m256)a, (__m256i)order);
+#else
+    v8f r;
+    for (int i = 0; i < 8; i++)
+        r[i] = a[order[i]];
+    return r;
 #endif
 }
 

@@ -15,7 +15,11 @@
 void tile_init(struct tile *t, struct tile_room room, uint32_t worker)
 {
     *t = (struct tile){.worker = worker, .room = room};
-    uint32_t most = room.planes + 8;
+    for (int bits = 0; bits < 256; bits++)
+        for (int lane = 0, at = 0; lane < 8; lane++)
+            if (bits >> lane & 1)
+                t->front_lanes[bits][at++] = lane;
+    uint32_t most = room.planes + 16;
     size_t planes = room.memory / 8 / 56, slots = room.memory / 4 / sizeof(struct block_leaf);
     planes = planes < 4 * (size_t)most ? 4 * (size_t)most : planes;
     planes = planes > 1 << 16 ? (1 << 16 > 4 * most ? 1 << 16 : 4 * most) : planes;
@@ -34,7 +38,7 @@ void tile_init(struct tile *t, struct tile_room room, uint32_t worker)
         t->exact[i] = mem_aligned(32, most * sizeof(double));
     t->slot_size = (uint32_t)slots;
     t->slots = mem_aligned(64, slots * sizeof *t->slots);
-    t->index_size = most * 2 > 1 << 16 ? most * 2 : 1 << 16;
+    t->index_size = most * 2 + 16 > 1 << 16 ? most * 2 + 16 : 1 << 16;
     t->index = mem_alloc(t->index_size * sizeof *t->index);
     t->key = mem_alloc(t->index_size * sizeof *t->key);
     for (size_t i = 0; i < array_count(t->scratch); i++)
@@ -51,7 +55,7 @@ size_t tile_bytes(const struct tile *t)
     size_t plane = 8 * sizeof(float) + sizeof(struct plane_exact);
     return t->planes.size * plane + t->slot_size * sizeof *t->slots +
            t->index_size * (sizeof *t->index + sizeof *t->key) +
-           (t->room.planes + 8) * (13 * sizeof(float) + 3 * sizeof(double)) +
+           (t->room.planes + 16) * (13 * sizeof(float) + 3 * sizeof(double)) +
            t->leaf_capacity * sizeof *t->leaves +
            t->mesh.crossing_capacity * sizeof *t->mesh.crossings +
            t->mesh.sorted_capacity * sizeof *t->mesh.sorted +
@@ -309,70 +313,88 @@ INLINE int shown(const struct hidden_by *k, const struct plane_source *s, uint32
     return s->n - at < 8 ? bits & ((1 << (s->n - at)) - 1) : bits;
 }
 
-// The numbers of the planes of the source that q does not hide, at `out`; returns how many.
-INLINE uint32_t list_numbers(uint32_t *out, const struct plane_source *s, uint32_t q, float x,
-                             float y, float h)
+// Bit i: plane i of the eight that begin at `at` is on the source's side.
+INLINE int on_side(const struct plane_source *s, uint32_t at)
+{
+    int bits = s->side ? v8_bits(load(s->side + at) * s->sign < v8_set(0)) : 255;
+    return s->n - at < 8 ? bits & ((1 << (s->n - at)) - 1) : bits;
+}
+
+static const v8i lanes = {0, 1, 2, 3, 4, 5, 6, 7};
+
+// The numbers of the planes of the source that q does not hide, at `out` (which has room for eight
+// more); returns how many.
+INLINE uint32_t list_numbers(const struct tile *t, uint32_t *out, const struct plane_source *s,
+                             uint32_t q, float x, float y, float h)
 {
     struct hidden_by k = hidden_by(s, q, x, y, h);
     uint32_t kept = 0;
-    for (uint32_t i = 0; i < s->n; i += 8)
-        for (int bits = shown(&k, s, i); bits; bits &= bits - 1)
-            out[kept++] = s->id + i + (uint32_t)__builtin_ctz((unsigned)bits);
+    for (uint32_t i = 0; i < s->n; i += 8) {
+        int bits = shown(&k, s, i);
+        v8i number = t->front_lanes[bits] + v8_seti((int32_t)(s->id + i));
+        memcpy(out + kept, &number, sizeof number);
+        kept += (uint32_t)__builtin_popcount((unsigned)bits);
+    }
     return kept;
 }
 
+INLINE void append(const struct tile *t, struct plane_list *out, const struct plane_source *s,
+                   const uint32_t *ids, uint32_t at, int bits)
+{
+    v8i order = t->front_lanes[bits], number = lanes + v8_seti((int32_t)(s->id + at));
+    v8f sign = v8_set(s->sign);
+    if (ids)
+        memcpy(&number, ids + at, sizeof number);
+    v8f a = v8_permute(load(s->a + at) * sign, order),
+        b = v8_permute(load(s->b + at) * sign, order);
+    v8f c = v8_permute(load(s->c + at) * sign, order),
+        slack = v8_permute(load(s->slack + at), order);
+    v8f id = v8_permute((v8f)number, order);
+    memcpy(out->a + out->n, &a, sizeof a);
+    memcpy(out->b + out->n, &b, sizeof b);
+    memcpy(out->c + out->n, &c, sizeof c);
+    memcpy(out->slack + out->n, &slack, sizeof slack);
+    memcpy(out->id + out->n, &id, sizeof id);
+    out->n += (uint32_t)__builtin_popcount((unsigned)bits);
+}
+
 // Copies to `out` the planes of the source that q does not hide. `out` may be the source.
-INLINE void list_take(struct plane_list *out, const struct plane_source *s, const uint32_t *ids,
-                      uint32_t q, float x, float y, float h)
+INLINE void list_take(const struct tile *t, struct plane_list *out, const struct plane_source *s,
+                      const uint32_t *ids, uint32_t q, float x, float y, float h)
 {
     struct hidden_by k = hidden_by(s, q, x, y, h);
-    uint32_t kept = 0;
+    out->n = 0;
     for (uint32_t i = 0; i < s->n; i += 8)
-        for (int bits = shown(&k, s, i); bits; bits &= bits - 1) {
-            uint32_t p = i + (uint32_t)__builtin_ctz((unsigned)bits);
-            out->a[kept] = s->sign * s->a[p];
-            out->b[kept] = s->sign * s->b[p];
-            out->c[kept] = s->sign * s->c[p];
-            out->slack[kept] = s->slack[p];
-            out->id[kept++] = ids ? ids[p] : s->id + p;
-        }
-    out->n = kept;
+        append(t, out, s, ids, i, shown(&k, s, i));
     list_pad(out);
 }
 
-// All planes of one side of a source of at most eight.
-INLINE void list_split(struct plane_list *out, const struct plane_source *s)
+// Copies to `out` all planes of the source's side.
+INLINE void list_split(const struct tile *t, struct plane_list *out, const struct plane_source *s)
 {
     out->n = 0;
-    for (uint32_t i = 0; i < s->n; i++) {
-        if (!(s->side[i] * s->sign < 0))
-            continue;
-        out->a[out->n] = s->a[i] * s->sign;
-        out->b[out->n] = s->b[i] * s->sign;
-        out->c[out->n] = s->c[i] * s->sign;
-        out->slack[out->n] = s->slack[i];
-        out->id[out->n++] = i;
-    }
+    for (uint32_t i = 0; i < s->n; i += 8)
+        append(t, out, s, NULL, i, on_side(s, i));
     list_pad(out);
 }
 
 // The planes of the source that may have the largest key somewhere in the square; not all of the
 // others are dropped once `enough` or fewer are left.
-INLINE void cull_planes(struct plane_list *out, const struct plane_source *s, float x, float y,
-                        float h, uint32_t enough)
+INLINE void cull_planes(const struct tile *t, struct plane_list *out, const struct plane_source *s,
+                        float x, float y, float h, uint32_t enough)
 {
     const float cx[5] = {0, -1, 1, -1, 1}, cy[5] = {0, -1, -1, 1, 1};
     uint32_t q = largest_at(s, x, y);
     out->n = 0;
     if (q == UINT32_MAX)
         return;
-    list_take(out, s, NULL, q, x, y, h);
+    list_take(t, out, s, NULL, q, x, y, h);
     struct plane_source rest = {
         .a = out->a, .b = out->b, .c = out->c, .slack = out->slack, .sign = 1};
     for (int k = 1; k < 5 && out->n > enough; k++) {
         rest.n = out->n;
         q = largest_at(&rest, x + h * cx[k], y + h * cy[k]);
-        list_take(out, &rest, out->id, q, x, y, h);
+        list_take(t, out, &rest, out->id, q, x, y, h);
     }
 }
 
@@ -380,7 +402,7 @@ INLINE void cull_planes(struct plane_list *out, const struct plane_source *s, fl
 // leans against the ray. An affine function of the pixel, written to the pool from `at` on.
 INLINE void put_steepness(struct tile *t, uint32_t at, v8f a, v8f b, v8f c)
 {
-    v8f one = v8_set(1), zero = v8_set(0), root, per_pixel = zero;
+    v8f one = v8_set(1), zero = v8_set(0), per_pixel = zero;
     v8f scale = v8_set(t->slope);
     if (!t->frame->rays->orthographic) {
         per_pixel = one / (v8_set((float)t->frame->t0) - a);
@@ -389,9 +411,7 @@ INLINE void put_steepness(struct tile *t, uint32_t at, v8f a, v8f b, v8f c)
     v8f gx = b * scale, gy = c * scale;
     v8f along = one + gx * t->lean_x + gy * t->lean_y;
     v8f squared = gx * gx + gy * gy + along * along;
-    for (int i = 0; i < 8; i++)
-        root[i] = sqrtf(squared[i]);
-    v8f steep = one / root;
+    v8f steep = one / v8_sqrt(squared);
     v8f x = -(b * per_pixel) * steep, y = -(c * per_pixel) * steep;
     x = v8_select(v8_abs(x) < v8_set(KEY_LIMIT), x, zero); // a plane along the middle ray
     y = v8_select(v8_abs(y) < v8_set(KEY_LIMIT), y, zero);
@@ -402,8 +422,7 @@ INLINE void put_steepness(struct tile *t, uint32_t at, v8f a, v8f b, v8f c)
 
 // Culls the planes of one side over the tile and appends them to the pool. Returns the bound of the
 // key: the entry is nowhere below it (front), the exit nowhere above it (back).
-static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t enough,
-                       uint32_t *count)
+static float keep_side(struct tile *t, uint32_t planes, float sign, bool whole, uint32_t *count)
 {
     struct plane_pool *pool = &t->planes;
     struct plane_source source = {.a = t->scratch[0],
@@ -416,10 +435,10 @@ static float keep_side(struct tile *t, uint32_t planes, float sign, uint32_t eno
     struct plane_list list = t->list;
     v8f h = v8_set(0.5f * TILE), bound = v8_set(-FLT_MAX), flip = v8_set(sign);
 
-    if (planes <= 8)
-        list_split(&list, &source);
+    if (planes <= 8 || whole)
+        list_split(t, &list, &source);
     else
-        cull_planes(&list, &source, 0, 0, 0.5f * TILE, enough);
+        cull_planes(t, &list, &source, 0, 0, 0.5f * TILE, 16);
     for (uint32_t i = 0; i < list.n; i += 8) {
         v8f a = load(list.a + i), b = load(list.b + i), c = load(list.c + i);
         bound = v8_max(bound, a - (v8_abs(b) + v8_abs(c)) * h);
@@ -467,12 +486,11 @@ void tile_prepare(struct tile *t, struct tile_leaf *l)
     make_planes(t, p, &r, f->rays->orthographic);
 
     l->plane = t->planes.used;
-    // the corners of the tile only help where the leaf reaches beyond them
-    bool beyond = l->x0 < (float)t->x0 && l->x1 > (float)t->x1;
-    beyond |= l->y0 < (float)t->y0 && l->y1 > (float)t->y1;
-    uint32_t enough = beyond ? 16 : UINT32_MAX;
-    float near = keep_side(t, p->count, 1, enough, &l->front);
-    float far = keep_side(t, p->count, -1, enough, &l->back);
+    // nothing to cull where the tile holds the whole leaf
+    bool whole = l->x0 >= (float)t->x0 && l->x1 <= (float)(t->x1 - 1) && l->y0 >= (float)t->y0 &&
+                 l->y1 <= (float)(t->y1 - 1);
+    float near = keep_side(t, p->count, 1, whole, &l->front);
+    float far = keep_side(t, p->count, -1, whole, &l->back);
     l->near = near > l->near ? near : l->near;
     l->far = far < l->far ? far : l->far;
     l->state = l->near < l->far ? LEAF_READY : LEAF_ABSENT;
@@ -516,7 +534,7 @@ static uint32_t block_side(struct tile *t, uint32_t first, uint32_t n, float sig
                                   first,
                                   n,
                                   sign};
-    return list_numbers(index, &source, largest_at(&source, t->mx, t->my), t->mx, t->my,
+    return list_numbers(t, index, &source, largest_at(&source, t->mx, t->my), t->mx, t->my,
                         0.5f * BLOCK);
 }
 
@@ -607,7 +625,7 @@ struct block_leaf *tile_crossings(struct tile *t, struct tile_leaf *l)
         if (l->state == LEAF_ABSENT)
             return NULL;
     }
-    if (t->slot_count == t->slot_size || t->index_size - t->index_used < l->front + l->back) {
+    if (t->slot_count == t->slot_size || t->index_size - t->index_used < l->front + l->back + 16) {
         t->slot_count = 0; // forget the crossings of this block
         t->index_used = 0;
         t->mesh.interval_count = 0;

@@ -145,6 +145,7 @@ struct tile {
     uint32_t index_used, index_size;
 
     struct mesh_pool mesh;
+    v8i front_lanes[256];   // for v8_permute: the lanes of the set bits of a number first
     float *scratch[5];      // planes_most floats each
     double *exact[3];       // planes_most
     struct plane_list list; // room for planes_most
