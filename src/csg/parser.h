@@ -56,8 +56,9 @@ void csg_scanner_show(struct csg_parser *p, bool show);
 // Tokens, scan.c.
 double csg_scan_number(struct csg_parser *p, const char *text, const char **end);
 double csg_scan_hex(const char *text); // "0x1F"; stops at what is no digit
-struct csg_value csg_scan_vector(struct csg_parser *p, const char **at);
-struct csg_value csg_scan_matrix(struct csg_parser *p, const char *text, const char *end);
+// The vector of numbers, or of vectors of numbers, whose '[' is at `text`. Returns where it ends,
+// past its ']', or NULL when it is anything else.
+const char *csg_scan_numbers(struct csg_parser *p, const char *text, struct csg_value *value);
 // The string whose opening quote is at `quote`. Returns where it ends, past the closing quote.
 const char *csg_scan_string(struct csg_parser *p, const char *quote, struct csg_value *value);
 void csg_count_lines(struct csg_parser *p, const char *from, const char *to);

@@ -92,57 +92,101 @@ double csg_scan_hex(const char *text)
     return value;
 }
 
-// `*at` is at a '[', and the scanner has seen that only numbers, commas and blanks follow up to the
-// ']', behind which *at is put.
-struct csg_value csg_scan_vector(struct csg_parser *p, const char **at)
+// Also counts the lines.
+static const char *skip_blanks_in(struct csg_parser *p, const char *s)
 {
-    struct csg_value value = {.kind = CSG_NUMBERS};
-    const char *text = *at + 1;
-    double *copy = NULL;
-
-    while (*text != ']') {
-        bool negative = *text == '-';
-        double number;
-        if (*text == '\n') {
+    for (; is_blank(*s); s++)
+        if (*s == '\n') {
             p->line++;
-            p->line_start = text + 1;
+            p->line_start = s + 1;
         }
-        if (is_blank(*text) || *text == ',') {
-            text++;
-            continue;
-        }
-        text += *text == '-' || *text == '+';
-        if (*text == 'i' || *text == 'n') {
-            number = *text == 'i' ? (double)INFINITY : (double)NAN;
-            text += 3;
-        } else {
-            number = csg_scan_number(p, text, &text);
-        }
-        if (value.count == p->number_capacity)
-            array_reserve(&p->numbers, &p->number_capacity, (size_t)value.count + 1);
-        p->numbers[value.count++] = negative ? -number : number;
-    }
-    if (value.count) {
-        copy = arena_alloc(&p->tree.arena, value.count * sizeof *copy);
-        memcpy(copy, p->numbers, value.count * sizeof *copy);
-    }
-    value.numbers = copy;
-    *at = text + 1;
-    return value;
+    return s;
 }
 
-// A vector of such vectors, from its '[' to past its ']'.
-struct csg_value csg_scan_matrix(struct csg_parser *p, const char *text, const char *end)
+// One element of a vector of numbers: returns its end, NULL when it is no plain number.
+static const char *scan_element(struct csg_parser *p, const char *s, double *number)
+{
+    bool negative = *s == '-';
+    s += *s == '-' || *s == '+';
+    if (is_digit(*s) || (*s == '.' && is_digit(s[1]))) {
+        *number = csg_scan_number(p, s, &s);
+        if (!is_digit(s[-1]) && s[-1] != '.')
+            return NULL; // an exponent without digits
+    } else if (strncmp(s, "inf", 3) == 0 || strncmp(s, "nan", 3) == 0) {
+        *number = *s == 'i' ? (double)INFINITY : (double)NAN;
+        s += 3;
+    } else
+        return NULL;
+    if (negative)
+        *number = -*number;
+    return s;
+}
+
+// A vector of numbers from past its '[' to past its ']', or NULL.
+static const char *scan_row(struct csg_parser *p, const char *s, struct csg_value *value)
 {
     uint32_t count = 0;
+    double *copy = NULL;
 
-    for (const char *row = text + 1; (row = memchr(row, '[', (size_t)(end - row))); count++) {
-        csg_count_lines(p, text, row);
-        csg_push_value(p, csg_scan_vector(p, &row));
-        text = row;
+    s = skip_blanks_in(p, s);
+    while (*s != ']') {
+        if (count == p->number_capacity)
+            array_reserve(&p->numbers, &p->number_capacity, (size_t)count + 1);
+        s = scan_element(p, s, &p->numbers[count++]);
+        if (!s)
+            return NULL;
+        s = skip_blanks_in(p, s);
+        if (*s == ']')
+            break;
+        if (*s != ',')
+            return NULL;
+        s = skip_blanks_in(p, s + 1);
+        if (*s == ']')
+            return NULL;
     }
-    csg_count_lines(p, text, end);
-    return csg_vector(p, count);
+    if (count) {
+        copy = arena_alloc(&p->tree.arena, count * sizeof *copy);
+        memcpy(copy, p->numbers, count * sizeof *copy);
+    }
+    *value = (struct csg_value){.kind = CSG_NUMBERS, .count = count, .numbers = copy};
+    return s + 1;
+}
+
+// A vector of such vectors, from its first '[' inside to past its ']', or NULL.
+static const char *scan_rows(struct csg_parser *p, const char *s, struct csg_value *value)
+{
+    uint32_t before = p->value_count;
+
+    while (*s == '[') {
+        struct csg_value row;
+        s = scan_row(p, s + 1, &row);
+        if (!s)
+            break;
+        csg_push_value(p, row);
+        s = skip_blanks_in(p, s);
+        if (*s == ']') {
+            *value = csg_vector(p, p->value_count - before);
+            return s + 1;
+        }
+        if (*s != ',')
+            break;
+        s = skip_blanks_in(p, s + 1);
+    }
+    p->value_count = before;
+    return NULL;
+}
+
+const char *csg_scan_numbers(struct csg_parser *p, const char *text, struct csg_value *value)
+{
+    uint32_t line = p->line;
+    const char *line_start = p->line_start, *s = skip_blanks_in(p, text + 1);
+
+    s = *s == '[' ? scan_rows(p, s, value) : scan_row(p, s, value);
+    if (!s) { // its parts will be tokens
+        p->line = line;
+        p->line_start = line_start;
+    }
+    return s;
 }
 
 static const char *skip_blanks(const char *s)
