@@ -19,6 +19,8 @@ struct drawing {
     struct drawing_job next; // loaded NULL: nothing asked for
     struct shot newest;
     bool fresh, stopping;
+    int divisor;           // of the picture being drawn, 0 when none is
+    atomic_bool cancelled; // that picture is not wanted any more
 };
 
 void shot_free(struct shot *s)
@@ -66,18 +68,26 @@ static void run(void *context)
             uv_cond_wait(&d->asked, &d->mutex);
         struct drawing_job job = d->next;
         d->next.loaded = NULL;
+        d->divisor = job.divisor;
+        atomic_store(&d->cancelled, false);
         bool stopping = d->stopping;
         uv_mutex_unlock(&d->mutex);
         if (stopping) {
             loaded_release(job.loaded);
             break;
         }
+        job.settings.cancelled = &d->cancelled;
         draw(&work, &job, device, &picture);
         uv_mutex_lock(&d->mutex);
-        exchange(&work, &d->newest);
-        d->fresh = true;
+        bool whole = !atomic_load(&d->cancelled);
+        d->divisor = 0;
+        if (whole) {
+            exchange(&work, &d->newest);
+            d->fresh = true;
+        }
         uv_mutex_unlock(&d->mutex);
-        d->done(d->context);
+        if (whole)
+            d->done(d->context);
     }
     shot_free(&work);
     picture_free(&picture);
@@ -108,6 +118,8 @@ void drawing_ask(struct drawing *d, const struct drawing_job *job)
     struct loaded *replaced = d->next.loaded;
     d->next = *job;
     loaded_hold(job->loaded);
+    if (d->divisor && job->divisor > d->divisor) // a drag begins: its pictures are coarse and soon
+        atomic_store(&d->cancelled, true);       // there, the fine one under way would hold them up
     uv_cond_signal(&d->asked);
     uv_mutex_unlock(&d->mutex);
     loaded_release(replaced);
@@ -130,6 +142,7 @@ void drawing_stop(struct drawing *d)
         return;
     uv_mutex_lock(&d->mutex);
     d->stopping = true;
+    atomic_store(&d->cancelled, true);
     uv_cond_signal(&d->asked);
     uv_mutex_unlock(&d->mutex);
     uv_thread_join(&d->thread);

@@ -26,7 +26,8 @@ void shot_free(struct shot *s); // leaves {0}
 struct drawing;
 // `done` is called from the drawing thread after each shot.
 struct drawing *drawing_start(void (*done)(void *context), void *context, struct error *err);
-// Replaces what was asked for before and is not begun yet.
+// Replaces what was asked for before and is not begun yet. A finer picture that is being drawn is
+// given up: then no shot comes of it.
 void drawing_ask(struct drawing *d, const struct drawing_job *job);
 // Exchanges *shot for the newest one; false when there is none since the last call.
 bool drawing_take(struct drawing *d, struct shot *shot);

@@ -3,6 +3,8 @@
 #include "model/model.h"
 #include "render/rays.h"
 
+#include <stdatomic.h>
+
 #define SURFACE_NONE UINT32_MAX // in `leaf`: nothing there
 #define SURFACE_CAP  UINT32_MAX // in `face`: solid cut open by the near plane
 
@@ -46,6 +48,7 @@ struct render_settings {
     uint32_t threads; // 0: one per processor
     size_t memory;    // budget in bytes for a frame beyond model and outputs; 0: 256 MB
     enum walk walk;
+    const atomic_bool *cancelled; // once true, the frame ends early and means nothing; NULL: never
 };
 
 struct render_stats {

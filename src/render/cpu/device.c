@@ -98,6 +98,9 @@ struct run {
 static void run_tile(void *context, uint32_t item, uint32_t worker)
 {
     struct run *r = context;
+    const atomic_bool *cancelled = r->job->frame->settings->cancelled;
+    if (cancelled && atomic_load_explicit(cancelled, memory_order_relaxed))
+        return;
     if (!r->ready[worker]) {
         if (r->workers[worker] && !r->kernel->worker_reuse(r->workers[worker], r->job)) {
             r->kernel->worker_delete(r->workers[worker]);
