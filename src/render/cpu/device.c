@@ -5,22 +5,15 @@
 #include "base/mem.h"
 #include "base/parallel.h"
 #include "render/cpu/kernel.h"
+#include "render/cpu/tree_cache.h"
 
 #include <stdlib.h>
 
 enum { MEMORY_DEFAULT = 256 << 20 };
 
-struct tree_entry {
-    const struct solid *solid;
-    uint64_t hash;
-    struct mesh_tree tree;
-    bool used;
-};
-
 struct cpu_device {
     const struct kernel *kernel;
-    struct tree_entry *trees; // of the mesh solids of the newest frames
-    uint32_t tree_count, tree_capacity;
+    struct tree_cache trees;
     void **workers; // made when there is work for them; NULL until then
     uint32_t worker_count;
 };
@@ -40,9 +33,7 @@ void cpu_device_delete(struct cpu_device *d)
 {
     if (!d)
         return;
-    for (uint32_t i = 0; i < d->tree_count; i++)
-        mesh_tree_free(&d->trees[i].tree);
-    free(d->trees);
+    tree_cache_free(&d->trees);
     for (uint32_t i = 0; i < d->worker_count; i++)
         if (d->workers[i])
             d->kernel->worker_delete(d->workers[i]);
@@ -50,41 +41,14 @@ void cpu_device_delete(struct cpu_device *d)
     free(d);
 }
 
-static uint32_t find_tree(struct cpu_device *d, const struct solid *s)
-{
-    for (uint32_t i = 0; i < d->tree_count; i++)
-        if (d->trees[i].solid == s && d->trees[i].hash == s->hash)
-            return i;
-    array_reserve(&d->trees, &d->tree_capacity, d->tree_count + 1);
-    struct tree_entry *e = &d->trees[d->tree_count];
-    *e = (struct tree_entry){.solid = s, .hash = s->hash};
-    mesh_tree_build(&e->tree, &s->mesh);
-    return d->tree_count++;
-}
-
-// Gives each mesh leaf the tree of its solid; trees that no leaf of the body uses are dropped.
+// Gives each mesh leaf in the picture the tree of its solid.
 static void attach_trees(struct cpu_device *d, struct frame *f)
 {
-    const struct body *b = f->body;
-    for (uint32_t i = 0; i < d->tree_count; i++)
-        d->trees[i].used = false;
-    for (uint32_t i = 0; i < b->leaf_count; i++)
-        if (!b->leaves[i].solid->convex) {
-            uint32_t tree = find_tree(d, b->leaves[i].solid); // may move d->trees
-            d->trees[tree].used = true;
-        }
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < d->tree_count; i++) {
-        if (d->trees[i].used)
-            d->trees[kept++] = d->trees[i];
-        else
-            mesh_tree_free(&d->trees[i].tree);
-    }
-    d->tree_count = kept;
+    tree_cache_tick(&d->trees);
     for (uint32_t i = 0; i < f->leaf_count; i++) {
-        const struct solid *s = b->leaves[f->leaves[i].leaf].solid;
+        const struct solid *s = f->body->leaves[f->leaves[i].leaf].solid;
         if (!s->convex)
-            f->leaves[i].tree = &d->trees[find_tree(d, s)].tree;
+            f->leaves[i].tree = tree_cache_get(&d->trees, s);
     }
 }
 
@@ -138,6 +102,7 @@ static void render(struct cpu_device *d, const struct body *body, const struct r
         if (r.ready[i])
             d->kernel->worker_add(r.workers[i], &totals);
     free(r.ready);
+    discovery_settle(body->table);
     if (stats)
         *stats = (struct render_stats){.seconds_setup = ready - begun,
                                        .seconds_draw = clock_seconds() - ready,

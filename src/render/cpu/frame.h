@@ -39,7 +39,6 @@ struct frame {
     double t0;
     float start, end; // keys of rays.near and rays.far
     float epsilon;    // key distance of the filter at t0, across a face seen head-on
-    double scale;     // millimetres of depth on the ray of the picture's centre per unit of depth
     struct vec3 axis; // unit, into the picture
 
     struct frame_leaf *leaves; // parts front to back, leaves of a part front to back

@@ -229,11 +229,8 @@ static void tile(void *worker, const struct kernel_job *job, uint32_t tile_numbe
 }
 
 #define kernel_isa ISA_PASTE(kernel, ISA)
-#define TEXT_(x)   #x
-#define TEXT(x)    TEXT_(x)
 
-const struct kernel kernel_isa = {.name = TEXT(ISA),
-                                  .worker_new = worker_new,
+const struct kernel kernel_isa = {.worker_new = worker_new,
                                   .worker_reuse = worker_reuse,
                                   .worker_add = worker_add,
                                   .worker_delete = worker_delete,

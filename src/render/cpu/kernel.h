@@ -18,7 +18,6 @@ struct kernel_job {
 
 // A worker is kept from frame to frame: its pools are large.
 struct kernel {
-    const char *name;
     void *(*worker_new)(const struct kernel_job *job, uint32_t worker);
     bool (*worker_reuse)(void *worker, const struct kernel_job *job);     // false: it is too small
     void (*worker_add)(const void *worker, struct kernel_totals *add_to); // of this frame

@@ -6,8 +6,8 @@
 
 struct mesh_node {
     struct box box;
-    uint32_t first,
-        count; // count > 0: triangles order[first ..]; else children first and first + 1
+    uint32_t first; // of its triangles in `order`, or of its two children
+    uint32_t count; // of triangles; 0: it has children
 };
 
 struct mesh_tree {

@@ -201,8 +201,9 @@ static void make_planes(struct tile *t, const struct planes *p, const struct loc
     v4d xx = v4_set(r->step_x.x), xy = v4_set(r->step_x.y), xz = v4_set(r->step_x.z);
     v4d yx = v4_set(r->step_y.x), yy = v4_set(r->step_y.y), yz = v4_set(r->step_y.z);
     // A plane seen edge-on, or with the eye on it, is crossed far in front by rays inside of it and
-    // never by rays outside. A ray in the plane itself is taken as moved down by a millionth of a
-    // pixel (and left by less): mesh.c decides the same way, so neighbouring solids agree.
+    // never by rays outside. A ray in the plane itself is taken as moved down by 1e-4 pixels and
+    // left by 1e-5, more than the rounding of a float key: mesh.c decides the same way, so
+    // neighbouring solids agree.
     v4d tiny = v4_set(orthographic ? -1e-25 : 1e-25), scale = v4_set(r->scale);
     v4d least = v4_set(orthographic ? 1e-13 * vec3_length(r->direction)
                                     : 1e-13 * vec3_length(r->eye) * r->scale);

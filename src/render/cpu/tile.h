@@ -36,10 +36,6 @@ struct tile_leaf {
     uint32_t frame_leaf; // index in frame.leaves
     uint32_t leaf;       // number in the body
     uint32_t part;
-    // Steepness below this counts as this: it bounds how far along a ray faces can be within
-    // epsilon.
-#define STEEP_LEAST 1e-3f
-
     enum leaf_state state;
     uint32_t plane, front, back; // in the plane pool: front planes, then back planes
     uint32_t serial;             // of the block for which `slot` holds
@@ -165,8 +161,7 @@ void tile_init(struct tile *t, struct tile_room room, uint32_t worker);
 size_t tile_bytes(const struct tile *t);
 void tile_free(struct tile *t);
 
-// Moves on to a tile: finds its leaves (parts front to back). `visible` limits them to one part or
-// none.
+// Moves on to a tile: finds its leaves, parts front to back.
 void tile_enter(struct tile *t, uint32_t tile_number);
 // Moves on to the block at pixel (x, y) of the tile.
 void tile_block(struct tile *t, int x, int y);

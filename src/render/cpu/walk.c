@@ -343,7 +343,7 @@ static bool change(struct ray_walk *r, uint32_t from, uint32_t to, bool solid)
 }
 
 // Walks a sorted list. Returns the number of crossings taken: with `more` to come, the last cluster
-// is left for the next list. False answers through *over.
+// is left for the next list. *over tells that the question is answered.
 static uint32_t walk_list(struct ray_walk *r, bool more, bool *over)
 {
     uint32_t cluster = 0, i = 0;
@@ -395,7 +395,7 @@ struct leaf_range {
     uint32_t first, count;
 };
 
-// Number of crossings of each ray [from, to).
+// Number of crossings of each ray of the block; returns their sum.
 static uint64_t count_crossings(struct tile *t, struct leaf_range leaves, uint32_t *counts)
 {
     uint64_t sum = 0;
@@ -513,8 +513,8 @@ static void walk_in_passes(struct ray_walk *r, struct leaf_range leaves)
 {
     struct walk_lists *w = r->t->lists;
     crossing floor = 0, ceiling;
-    bool over = false;
-    do {
+    bool over;
+    for (;;) {
         r->items = w->items;
         r->count = fill_nearest(r->t, leaves, r->ray, floor, &ceiling);
         bool more = ceiling != UINT64_MAX;
@@ -533,7 +533,7 @@ static void walk_in_passes(struct ray_walk *r, struct leaf_range leaves)
                     (uint32_t)w->items[i] & 1 ? -1 : 1;
         carry(r, taken);
         floor = w->items[taken - 1];
-    } while (!over);
+    }
 }
 
 struct block_walk {
