@@ -2,21 +2,16 @@
 #include "render/cpu/walk.h"
 
 #include "base/mem.h"
-#include "base/sort.h"
+#include "render/cpu/crossing_list.h"
 #include "render/cpu/query.h"
 
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-// A crossing: the key as an ordered number in the high half, tile leaf * 2 + leaving in the low
-// half, so that sorting 64-bit numbers sorts crossings.
-typedef uint64_t crossing;
-
 struct walk_lists {
     struct tile_room room;
-    crossing *items, *spare;
-    uint32_t size;  // of both
+    struct crossing_list list;
     crossing *rest; // a list without some crossings
     uint32_t rest_capacity;
 
@@ -26,7 +21,6 @@ struct walk_lists {
     uint32_t member_count, member_capacity;
     struct member *base; // combination at the start of the list being walked
     uint32_t base_count, base_capacity;
-    uint64_t base_key;
 
     // the array method
     int32_t *inside; // per leaf of the body
@@ -40,9 +34,9 @@ struct walk_lists *walk_new(struct tile_room room)
 {
     struct walk_lists *w = mem_zalloc(sizeof *w);
     size_t items = room.memory / 4 / sizeof(crossing);
-    w->size = (uint32_t)(items < 256 ? 256 : items > 1 << 20 ? 1 << 20 : items);
-    w->items = mem_alloc(w->size * sizeof *w->items);
-    w->spare = mem_alloc(w->size * sizeof *w->spare);
+    w->list.size = (uint32_t)(items < 256 ? 256 : items > 1 << 20 ? 1 << 20 : items);
+    w->list.items = mem_alloc(w->list.size * sizeof *w->list.items);
+    w->list.spare = mem_alloc(w->list.size * sizeof *w->list.spare);
     w->count_of = mem_zalloc((room.classes + 1) * sizeof *w->count_of);
     w->inside = mem_zalloc((room.leaves + 1) * sizeof *w->inside);
     w->solid = mem_zalloc(room.nodes + 1);
@@ -52,7 +46,7 @@ struct walk_lists *walk_new(struct tile_room room)
 
 size_t walk_bytes(const struct walk_lists *w)
 {
-    return w->size * 2 * sizeof(crossing) + w->room.classes * sizeof *w->count_of +
+    return w->list.size * 2 * sizeof(crossing) + w->room.classes * sizeof *w->count_of +
            w->room.leaves * sizeof *w->inside + w->room.nodes +
            w->rest_capacity * sizeof(crossing) +
            (w->member_capacity + w->base_capacity) * sizeof *w->members +
@@ -63,8 +57,8 @@ void walk_delete(struct walk_lists *w)
 {
     if (!w)
         return;
-    free(w->items);
-    free(w->spare);
+    free(w->list.items);
+    free(w->list.spare);
     free(w->rest);
     free(w->count_of);
     free(w->members);
@@ -73,43 +67,6 @@ void walk_delete(struct walk_lists *w)
     free(w->solid);
     free(w->spans);
     free(w);
-}
-
-static crossing crossing_make(float key, uint32_t leaf, bool leaving)
-{
-    return (uint64_t)sort_number(key) << 32 | leaf << 1 | leaving;
-}
-
-static float crossing_key(crossing c)
-{
-    return sort_float((uint32_t)(c >> 32));
-}
-
-static void sort(crossing *items, crossing *spare, uint32_t n)
-{
-    enum { RUN = 24 };
-    for (uint32_t from = 0; from < n; from += RUN) {
-        uint32_t to = from + RUN < n ? from + RUN : n;
-        for (uint32_t i = from + 1; i < to; i++) {
-            crossing c = items[i];
-            uint32_t j = i;
-            for (; j > from && items[j - 1] > c; j--)
-                items[j] = items[j - 1];
-            items[j] = c;
-        }
-    }
-    for (uint32_t run = RUN; run < n; run *= 2) {
-        for (uint32_t from = 0; from < n; from += 2 * run) {
-            uint32_t middle = from + run < n ? from + run : n;
-            uint32_t to = from + 2 * run < n ? from + 2 * run : n;
-            if (middle >= to || items[middle - 1] <= items[middle])
-                continue;
-            uint32_t i = 0, size = middle - from, j = middle, out = from;
-            memcpy(spare, items + from, size * sizeof *spare);
-            while (i < size)
-                items[out++] = j < to && items[j] < spare[i] ? items[j++] : spare[i++];
-        }
-    }
 }
 
 // ---------------------------------------------------------------- is a combination solid?
@@ -389,116 +346,6 @@ static void ray_end(struct ray_walk *r)
         add_span(r->t, r->entered, (struct boundary){r->t->frame->end, SURFACE_NONE, SURFACE_CAP});
 }
 
-// ---------------------------------------------------------------- lists of a block
-
-struct leaf_range {
-    uint32_t first, count;
-};
-
-// Number of crossings of each ray of the block; returns their sum.
-static uint64_t count_crossings(struct tile *t, struct leaf_range leaves, uint32_t *counts)
-{
-    uint64_t sum = 0;
-    memset(counts, 0, BLOCK_PIXELS * sizeof *counts);
-    for (uint32_t i = 0; i < leaves.count; i++) {
-        const struct block_leaf *b = tile_crossings(t, &t->leaves[leaves.first + i]);
-        if (!b)
-            continue;
-        for (int p = 0; p < BLOCK_PIXELS; p++)
-            counts[p] +=
-                b->mesh ? 2 * (b->first[p + 1] - b->first[p]) : 2 * (b->enter[p] < b->leave[p]);
-    }
-    for (int p = 0; p < BLOCK_PIXELS; p++)
-        sum += counts[p];
-    return sum;
-}
-
-// Writes the crossings of rays [from, to) to their places: entries from in[p] on, exits from out[p]
-// on. Leaves come front to back, so both are nearly in order.
-static void fill_lists(struct tile *t, struct leaf_range leaves, int from, int to, uint32_t *in,
-                       uint32_t *out)
-{
-    crossing *items = t->lists->items;
-    for (uint32_t i = 0; i < leaves.count; i++) {
-        uint32_t l = leaves.first + i;
-        const struct block_leaf *b = tile_crossings(t, &t->leaves[l]);
-        if (!b)
-            continue;
-        for (int p = from; p < to; p++) {
-            if (!b->mesh) {
-                if (!(b->enter[p] < b->leave[p]))
-                    continue;
-                items[in[p]++] = crossing_make(b->enter[p], l, false);
-                items[out[p]++] = crossing_make(b->leave[p], l, true);
-                continue;
-            }
-            for (uint32_t k = b->first[p]; k < b->first[p + 1]; k++) {
-                const struct mesh_interval *m = &t->mesh.intervals[b->interval + k];
-                items[in[p]++] = crossing_make(m->enter, l, false);
-                items[out[p]++] = crossing_make(m->leave, l, true);
-            }
-        }
-    }
-}
-
-// Sorts the entries items[0 .. n / 2) and the exits behind them and merges the two into `spare`.
-static const crossing *merge_halves(crossing *items, crossing *spare, uint32_t n)
-{
-    uint32_t half = n / 2, i = 0, j = half, k = 0;
-    sort(items, spare, half);
-    sort(items + half, spare, half);
-    while (i < half)
-        spare[k++] = j < n && items[j] < items[i] ? items[j++] : items[i++];
-    memcpy(spare + k, items + j, (n - j) * sizeof *spare);
-    return spare;
-}
-
-static void keep_nearest(struct walk_lists *w, uint32_t *n, crossing *ceiling)
-{
-    sort(w->items, w->spare, *n);
-    *n = w->size / 2;
-    *ceiling = w->items[*n - 1];
-}
-
-static void offer(struct walk_lists *w, uint32_t *n, crossing c, crossing floor, crossing *ceiling)
-{
-    if (c <= floor || c > *ceiling)
-        return;
-    if (*n == w->size)
-        keep_nearest(w, n, ceiling);
-    if (c <= *ceiling)
-        w->items[(*n)++] = c;
-}
-
-// The nearest crossings of one ray beyond `floor`, as many as fit; *ceiling is the last one taken,
-// or all ones when nothing is left beyond. For rays with more crossings than memory.
-static uint32_t fill_nearest(struct tile *t, struct leaf_range leaves, int p, crossing floor,
-                             crossing *ceiling)
-{
-    uint32_t n = 0;
-    *ceiling = UINT64_MAX;
-    for (uint32_t i = 0; i < leaves.count; i++) {
-        uint32_t l = leaves.first + i;
-        const struct block_leaf *b = tile_crossings(t, &t->leaves[l]);
-        if (!b)
-            continue;
-        if (!b->mesh) {
-            if (b->enter[p] < b->leave[p]) {
-                offer(t->lists, &n, crossing_make(b->enter[p], l, false), floor, ceiling);
-                offer(t->lists, &n, crossing_make(b->leave[p], l, true), floor, ceiling);
-            }
-            continue;
-        }
-        for (uint32_t k = b->first[p]; k < b->first[p + 1]; k++) {
-            const struct mesh_interval *m = &t->mesh.intervals[b->interval + k];
-            offer(t->lists, &n, crossing_make(m->enter, l, false), floor, ceiling);
-            offer(t->lists, &n, crossing_make(m->leave, l, true), floor, ceiling);
-        }
-    }
-    sort(t->lists->items, t->lists->spare, n);
-    return n;
-}
-
 // Makes the combination before items[taken] the base of the next list.
 static void carry(struct ray_walk *r, uint32_t taken)
 {
@@ -515,8 +362,8 @@ static void walk_in_passes(struct ray_walk *r, struct leaf_range leaves)
     crossing floor = 0, ceiling;
     bool over;
     for (;;) {
-        r->items = w->items;
-        r->count = fill_nearest(r->t, leaves, r->ray, floor, &ceiling);
+        r->items = w->list.items;
+        r->count = crossings_nearest(r->t, leaves, r->ray, floor, &w->list, &ceiling);
         bool more = ceiling != UINT64_MAX;
         uint64_t key = r->key;
         uint32_t taken = walk_list(r, more, &over);
@@ -526,13 +373,13 @@ static void walk_in_passes(struct ray_walk *r, struct leaf_range leaves)
             taken = r->count;
         r->key = key; // the crossings of the cut-off cluster come again
         for (uint32_t i = 0; i < taken; i++)
-            step(r, w->items[i], false);
+            step(r, w->list.items[i], false);
         if (r->array)
             for (uint32_t i = 0; i < r->count; i++)
-                r->t->lists->inside[r->t->leaves[(uint32_t)w->items[i] >> 1].leaf] -=
-                    (uint32_t)w->items[i] & 1 ? -1 : 1;
+                r->t->lists->inside[r->t->leaves[(uint32_t)w->list.items[i] >> 1].leaf] -=
+                    (uint32_t)w->list.items[i] & 1 ? -1 : 1;
         carry(r, taken);
-        floor = w->items[taken - 1];
+        floor = w->list.items[taken - 1];
     }
 }
 
@@ -550,7 +397,7 @@ static void walk_ray(struct tile *t, struct leaf_range leaves, int p, crossing *
     if (passes) {
         walk_in_passes(&r, leaves);
     } else {
-        r.items = merge_halves(items, t->lists->spare, count);
+        r.items = crossings_sort(&t->lists->list, items, count);
         r.count = count;
         walk_list(&r, false, &over);
     }
@@ -567,18 +414,19 @@ static void walk_rays(struct tile *t, struct leaf_range leaves, int from, int to
 {
     struct walk_lists *w = t->lists;
     uint32_t in[BLOCK_PIXELS], out[BLOCK_PIXELS], start = 0;
-    bool passes = to - from == 1 && counts[from] > w->size;
+    bool passes = to - from == 1 && counts[from] > w->list.size;
     for (int p = from; p < to; p++) {
         in[p] = start;
         out[p] = start + counts[p] / 2;
         start += counts[p];
     }
     if (!passes)
-        fill_lists(t, leaves, from, to, in, out);
+        crossings_fill(t, leaves, from, to, w->list.items, in, out);
     for (int p = from; p < to; p++) {
         if (span_first)
             span_first[p - from] = w->span_count;
-        walk_ray(t, leaves, p, w->items + (passes ? 0 : out[p] - counts[p]), counts[p], passes, bw);
+        walk_ray(t, leaves, p, w->list.items + (passes ? 0 : out[p] - counts[p]), counts[p], passes,
+                 bw);
     }
     if (span_first)
         span_first[to - from] = w->span_count;
@@ -597,9 +445,9 @@ void walk_first(struct tile *t, uint32_t first_leaf, uint32_t count, struct rays
     uint32_t counts[BLOCK_PIXELS];
     struct leaf_range leaves = {first_leaf, count};
     struct block_walk bw = {.first_only = true, .out = out};
-    uint64_t sum = count_crossings(t, leaves, counts);
+    uint64_t sum = crossings_count(t, leaves, counts);
     t->fragments += sum;
-    int group = sum <= t->lists->size ? BLOCK_PIXELS : 1;
+    int group = sum <= t->lists->list.size ? BLOCK_PIXELS : 1;
     for (int p = 0; p < BLOCK_PIXELS; p += group)
         walk_rays(t, leaves, p, p + group, counts, &bw, NULL);
 }
@@ -614,13 +462,13 @@ void walk_block(struct tile *t,
     struct block_walk bw = {0};
     int width = t->x1 - t->bx < BLOCK ? t->x1 - t->bx : BLOCK;
     int height = t->y1 - t->by < BLOCK ? t->y1 - t->by : BLOCK;
-    uint64_t sum = count_crossings(t, leaves, counts);
+    uint64_t sum = crossings_count(t, leaves, counts);
     t->fragments += sum;
 
-    bool whole = sum <= w->size && width == BLOCK && height == BLOCK;
+    bool whole = sum <= w->list.size && width == BLOCK && height == BLOCK;
     for (int y = 0; y < (whole ? 1 : height); y++) {
         bool row =
-            !whole && width == BLOCK && sum_of(counts, y * BLOCK, (y + 1) * BLOCK) <= w->size;
+            !whole && width == BLOCK && sum_of(counts, y * BLOCK, (y + 1) * BLOCK) <= w->list.size;
         int group = whole ? BLOCK_PIXELS : row ? BLOCK : 1;
         for (int x = 0; x < (group > 1 ? 1 : width); x++) {
             w->span_count = 0;
