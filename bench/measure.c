@@ -107,11 +107,9 @@ static void measure_turn(struct stage *s)
     for (uint32_t i = 0; i < s->options->frames && (i == 0 || spent < s->options->limit); i++) {
         double ms = draw(s, i, &stats);
         spent += ms / 1e3;
-        double setup = stats.seconds_setup * 1e3, inside = stats.seconds_draw * 1e3;
         samples_add(&r->picture, ms);
-        samples_add(&r->setup, setup);
-        samples_add(&r->draw, inside);
-        samples_add(&r->shade, ms - setup - inside);
+        samples_add(&r->setup, stats.seconds_setup * 1e3);
+        samples_add(&r->draw, stats.seconds_draw * 1e3);
         r->fragments += (double)stats.fragments;
         r->covered += share_covered(s);
     }

@@ -44,7 +44,6 @@ void report_rows(FILE *tsv, const struct result *r)
     row(tsv, name, "opaque_ms", &r->picture);
     row(tsv, name, "setup_ms", &r->setup);
     row(tsv, name, "draw_ms", &r->draw);
-    row(tsv, name, "shade_ms", &r->shade);
     row(tsv, name, "opaque_empty_table_extra", &r->picture_extra);
     row(tsv, name, "intervals_ms", &r->spans);
     row(tsv, name, "intervals_empty_table_extra", &r->spans_extra);
@@ -183,17 +182,16 @@ static void frames(FILE *out, const struct result *results, uint32_t count)
 
 static void stages(FILE *out, const struct result *results, uint32_t count)
 {
-    fprintf(out,
-            "\n### Stages, ms\n\n"
-            "| scene | triangles | read | build | first frame of all | set up | draw | shade | "
-            "memory of a frame, MB |\n"
-            "|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+    fprintf(out, "\n### Stages, ms\n\n"
+                 "| scene | triangles | read | build | first frame of all | set up | draw | "
+                 "memory of a frame, MB |\n"
+                 "|---|--:|--:|--:|--:|--:|--:|--:|\n");
     for (uint32_t i = 0; i < count; i++) {
         const struct result *r = &results[i];
-        fprintf(out, "| %s | %u | %.2f | %.2f | %.1f | %.2f | %.1f | %.2f | %.1f |\n",
-                r->scene->name, r->triangles, samples_median(&r->parse), samples_median(&r->build),
-                r->cold, samples_median(&r->setup), samples_median(&r->draw),
-                samples_median(&r->shade), (double)r->peak_bytes / (1 << 20));
+        fprintf(out, "| %s | %u | %.2f | %.2f | %.1f | %.2f | %.1f | %.1f |\n", r->scene->name,
+                r->triangles, samples_median(&r->parse), samples_median(&r->build), r->cold,
+                samples_median(&r->setup), samples_median(&r->draw),
+                (double)r->peak_bytes / (1 << 20));
     }
 }
 

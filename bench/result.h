@@ -32,7 +32,7 @@ struct result {
     struct samples parse, build;
     double cold;            // the very first frame
     struct samples picture; // a turn, from ray to RGB, table kept from view to view
-    struct samples setup, draw, shade;
+    struct samples setup, draw;
     struct samples spans; // all intervals, nothing shaded
     // The same from an empty table, over the time of the same view drawn again straight after,
     // less 1.
