@@ -40,6 +40,7 @@ struct frame {
     float start, end; // keys of rays.near and rays.far
     float epsilon;    // key distance of the filter at t0, across a face seen head-on
     struct vec3 axis; // unit, into the picture
+    bool clip;        // cut convex leaves to their regions of interest: it saves walks combinations
 
     struct frame_leaf *leaves; // parts front to back, leaves of a part front to back
     uint32_t leaf_count;

@@ -31,11 +31,12 @@ INLINE void put(float *out, v4d v)
     memcpy(out, &f, sizeof f);
 }
 
-// Key planes of all faces of a convex leaf: scratch 0..2 = a, b, c; scratch 3 below 0: front. All
-// in double until the constant term is relative to the centre of the tile.
+// Key planes of all faces of a convex leaf, from place `at` on: scratch 0..2 = a, b, c; scratch 3
+// below 0: front. All in double until the constant term is relative to the centre of the tile.
 static void make_planes(struct tile *t, const struct planes *p, const struct local_rays *r,
-                        bool orthographic)
+                        uint32_t at)
 {
+    bool orthographic = t->frame->rays->orthographic;
     v4d ex = v4_set(r->eye.x), ey = v4_set(r->eye.y), ez = v4_set(r->eye.z);
     v4d mx = v4_set(r->centre.x), my = v4_set(r->centre.y), mz = v4_set(r->centre.z);
     v4d dx = v4_set(r->direction.x), dy = v4_set(r->direction.y), dz = v4_set(r->direction.z);
@@ -64,16 +65,16 @@ static void make_planes(struct tile *t, const struct planes *p, const struct loc
         num = (v4d)(((v4l)moved & edge_on) | ((v4l)num & ~edge_on));
         v4d inv = v4_set(1) / den;
         v4d a = num * inv, b = -slope_x * inv, c = -slope_y * inv;
-        put(t->scratch[0] + i, a);
-        put(t->scratch[1] + i, b);
-        put(t->scratch[2] + i, c);
-        put(t->scratch[3] + i, den);
-        memcpy(t->exact[0] + i, &a, sizeof a);
-        memcpy(t->exact[1] + i, &b, sizeof b);
-        memcpy(t->exact[2] + i, &c, sizeof c);
+        put(t->scratch[0] + at + i, a);
+        put(t->scratch[1] + at + i, b);
+        put(t->scratch[2] + at + i, c);
+        put(t->scratch[3] + at + i, den);
+        memcpy(t->exact[0] + at + i, &a, sizeof a);
+        memcpy(t->exact[1] + at + i, &b, sizeof b);
+        memcpy(t->exact[2] + at + i, &c, sizeof c);
     }
     // What float keys may be off by anywhere in the tile, with a margin.
-    for (uint32_t i = 0; i < p->padded; i += 8) {
+    for (uint32_t i = at; i < at + p->padded; i += 8) {
         v8f slack = v8_abs(load(t->scratch[0] + i)) +
                     (v8_abs(load(t->scratch[1] + i)) + v8_abs(load(t->scratch[2] + i))) * REACH;
         slack *= 8e-7f;
@@ -105,7 +106,8 @@ INLINE void put_steepness(struct tile *t, uint32_t at, v8f a, v8f b, v8f c)
 
 // Culls the planes of one side over the tile and appends them to the pool. Returns the bound of the
 // key: the entry is nowhere below it (front), the exit nowhere above it (back).
-static float keep_side(struct tile *t, uint32_t planes, float sign, bool whole, uint32_t *count)
+static float keep_side(struct tile *t, uint32_t planes, uint32_t faces, float sign, bool whole,
+                       uint32_t *count)
 {
     struct plane_pool *pool = &t->planes;
     struct plane_source source = {.a = t->scratch[0],
@@ -134,9 +136,9 @@ static float keep_side(struct tile *t, uint32_t planes, float sign, bool whole, 
         memcpy(pool->c + pool->used + i, &c, sizeof c);
         memcpy(pool->slack + pool->used + i, list.slack + i, sizeof c);
     }
-    memcpy(pool->face + pool->used, list.id, list.n * sizeof *pool->face);
     for (uint32_t i = 0; i < list.n; i++) {
         uint32_t p = list.id[i];
+        pool->face[pool->used + i] = p < faces ? p : FACE_REGION;
         pool->exact[pool->used + i] =
             (struct plane_exact){t->exact[0][p], t->exact[1][p], t->exact[2][p]};
     }
@@ -153,27 +155,82 @@ static void forget_planes(struct tile *t)
     t->planes.used = 0;
 }
 
+enum { REGION_PLANES = 8 }; // six and padding
+
+// The borders of the leaf's region of interest that cut the leaf, in its coordinates; returns their
+// number.
+static uint32_t region_planes(const struct leaf *leaf, const struct box *roi,
+                              double planes[4][REGION_PLANES])
+{
+    const double(*m)[4] = leaf->to_world.m;
+    const double low[3] = {roi->min.x, roi->min.y, roi->min.z};
+    const double high[3] = {roi->max.x, roi->max.y, roi->max.z};
+    const double box_low[3] = {leaf->box.min.x, leaf->box.min.y, leaf->box.min.z};
+    const double box_high[3] = {leaf->box.max.x, leaf->box.max.y, leaf->box.max.z};
+    uint32_t n = 0;
+    for (int side = 0; side < 6; side++) {
+        int axis = side / 2;
+        double sign = side & 1 ? 1 : -1, size = box_high[axis] - box_low[axis];
+        double inside = side & 1 ? box_high[axis] - high[axis] : low[axis] - box_low[axis];
+        struct vec3 row = {m[axis][0], m[axis][1], m[axis][2]};
+        double scale = sign / vec3_length(row);
+        if (!(inside > 1e-6 * size) || !isfinite(scale))
+            continue;
+        planes[0][n] = row.x * scale;
+        planes[1][n] = row.y * scale;
+        planes[2][n] = row.z * scale;
+        planes[3][n++] = ((side & 1 ? high[axis] : low[axis]) - m[axis][3]) * scale;
+    }
+    for (uint32_t i = n; i < REGION_PLANES; i++)
+        for (int k = 0; k < 4; k++)
+            planes[k][i] = n ? planes[k][0] : 0;
+    return n;
+}
+
+// Adds the borders of the region behind the planes of the solid; returns the number of all planes.
+static uint32_t add_region(struct tile *t, const struct tile_leaf *l, const struct local_rays *r)
+{
+    const struct body *body = t->frame->body;
+    const struct planes *p = &body->leaves[l->leaf].solid->planes;
+    double planes[4][REGION_PLANES];
+    if (!t->frame->clip || !body->roi)
+        return p->count;
+    uint32_t n = region_planes(&body->leaves[l->leaf], &body->roi[l->leaf], planes);
+    if (!n)
+        return p->count;
+    struct planes region = {.nx = planes[0],
+                            .ny = planes[1],
+                            .nz = planes[2],
+                            .d = planes[3],
+                            .count = n,
+                            .padded = REGION_PLANES};
+    make_planes(t, &region, r, p->padded);
+    for (uint32_t i = p->count; i < p->padded; i++)
+        t->scratch[3][i] = 0; // the padding between is on no side
+    return p->padded + n;
+}
+
 void tile_prepare(struct tile *t, struct tile_leaf *l)
 {
-    const struct frame *f = t->frame;
-    const struct leaf *leaf = &f->body->leaves[l->leaf];
+    const struct leaf *leaf = &t->frame->body->leaves[l->leaf];
     const struct planes *p = &leaf->solid->planes;
 
     if (!leaf->solid->convex) {
         l->state = LEAF_READY;
         return;
     }
-    if (t->planes.size - t->planes.used < p->padded + 8)
+    if (t->planes.size - t->planes.used < p->padded + REGION_PLANES + 8)
         forget_planes(t);
     struct local_rays r = local_rays(t, leaf);
-    make_planes(t, p, &r, f->rays->orthographic);
+    make_planes(t, p, &r, 0);
+    uint32_t count = add_region(t, l, &r);
 
     l->plane = t->planes.used;
     // nothing to cull where the tile holds the whole leaf
     bool whole = l->x0 >= (float)t->x0 && l->x1 <= (float)(t->x1 - 1) && l->y0 >= (float)t->y0 &&
                  l->y1 <= (float)(t->y1 - 1);
-    float near = keep_side(t, p->count, 1, whole, &l->front);
-    float far = keep_side(t, p->count, -1, whole, &l->back);
+    float near = keep_side(t, count, p->count, 1, whole, &l->front);
+    float far = keep_side(t, count, p->count, -1, whole, &l->back);
     l->near = near > l->near ? near : l->near;
     l->far = far < l->far ? far : l->far;
     l->state = l->near < l->far ? LEAF_READY : LEAF_ABSENT;

@@ -15,7 +15,7 @@ void tile_init(struct tile *t, struct tile_room room, uint32_t worker)
         for (int lane = 0, at = 0; lane < 8; lane++)
             if (bits >> lane & 1)
                 t->front_lanes[bits][at++] = lane;
-    uint32_t most = room.planes + 16;
+    uint32_t most = room.planes + 24;
     size_t planes = room.memory / 8 / 56, slots = room.memory / 4 / sizeof(struct block_leaf);
     planes = planes < 4 * (size_t)most ? 4 * (size_t)most : planes;
     planes = planes > 1 << 16 ? (1 << 16 > 4 * most ? 1 << 16 : 4 * most) : planes;
@@ -51,7 +51,7 @@ size_t tile_bytes(const struct tile *t)
     size_t plane = 8 * sizeof(float) + sizeof(struct plane_exact);
     return t->planes.size * plane + t->slot_size * sizeof *t->slots +
            t->index_size * (sizeof *t->index + sizeof *t->key) +
-           (t->room.planes + 16) * (13 * sizeof(float) + 3 * sizeof(double)) +
+           (t->room.planes + 24) * (13 * sizeof(float) + 3 * sizeof(double)) +
            t->leaf_capacity * sizeof *t->leaves +
            t->mesh.crossing_capacity * sizeof *t->mesh.crossings +
            t->mesh.sorted_capacity * sizeof *t->mesh.sorted +

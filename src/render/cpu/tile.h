@@ -29,6 +29,9 @@
 // Steepness below this counts as this: it bounds how far along a ray faces can be within epsilon.
 #define STEEP_LEAST 1e-3f
 
+// As a face: the border of a leaf's region of interest, which is no surface.
+#define FACE_REGION (UINT32_MAX - 1)
+
 enum leaf_state { LEAF_NEW, LEAF_READY, LEAF_ABSENT };
 
 // A leaf in the tile. Front planes bound the entry from below, back planes the exit from above.

@@ -14,6 +14,8 @@ struct walk_lists {
     struct crossing_list list;
     crossing *rest; // a list without some crossings
     uint32_t rest_capacity;
+    bool *border; // per crossing of a cluster
+    uint32_t border_capacity;
 
     // evaluation of unknown combinations
     uint32_t *count_of; // per class, all 0 between uses
@@ -48,7 +50,7 @@ size_t walk_bytes(const struct walk_lists *w)
 {
     return w->list.size * 2 * sizeof(crossing) + w->room.classes * sizeof *w->count_of +
            w->room.leaves * sizeof *w->inside + w->room.nodes +
-           w->rest_capacity * sizeof(crossing) +
+           w->rest_capacity * sizeof(crossing) + w->border_capacity +
            (w->member_capacity + w->base_capacity) * sizeof *w->members +
            w->span_capacity * sizeof *w->spans;
 }
@@ -60,6 +62,7 @@ void walk_delete(struct walk_lists *w)
     free(w->list.items);
     free(w->list.spare);
     free(w->rest);
+    free(w->border);
     free(w->count_of);
     free(w->members);
     free(w->base);
@@ -188,10 +191,11 @@ static struct boundary boundary_at(struct ray_walk *r, crossing c)
     uint32_t id = (uint32_t)c;
     struct tile_leaf *l = &r->t->leaves[id >> 1];
     float key = crossing_key(c);
+    uint32_t face = tile_face(r->t, l, r->ray, id & 1, key, &steep);
     bool end = id & 1 && key >= r->t->frame->end;
     return (struct boundary){.key = key,
                              .leaf = end ? SURFACE_NONE : l->leaf,
-                             .face = tile_face(r->t, l, r->ray, id & 1, key, &steep)};
+                             .face = face == FACE_REGION ? SURFACE_CAP : face};
 }
 
 static float span_depth(const struct tile *t, float key)
@@ -233,7 +237,8 @@ static bool is_solid(struct ray_walk *r, const crossing *items, uint32_t n)
 }
 
 // Would the state behind crossing items[to - 1] be solid without crossing c of the cluster [from,
-// to), or (alone) with no other crossing of the cluster than c?
+// to), or (alone) with no other crossing of the cluster than c? A leaf that only crosses the border
+// of its region is inside on both sides in truth.
 static bool solid_if(struct ray_walk *r, uint32_t from, uint32_t to, uint32_t c, bool alone)
 {
     struct walk_lists *w = r->t->lists;
@@ -242,14 +247,14 @@ static bool solid_if(struct ray_walk *r, uint32_t from, uint32_t to, uint32_t c,
     crossing *rest = w->rest;
     memcpy(rest, r->items, from * sizeof *rest);
     for (uint32_t i = from; i < to; i++) {
-        if ((i == c) == alone)
+        if (w->border[i - from] ? !(r->items[i] & 1) : (i == c) == alone)
             rest[n++] = r->items[i];
         else
             step(r, r->items[i], true);
     }
     bool solid = is_solid(r, rest, n);
     for (uint32_t i = from; i < to; i++)
-        if ((i == c) != alone)
+        if (w->border[i - from] ? r->items[i] & 1 : (i == c) != alone)
             step(r, r->items[i], false);
     return solid;
 }
@@ -263,15 +268,32 @@ static bool is_paired(const struct ray_walk *r, uint32_t from, uint32_t to, uint
     return false;
 }
 
+// Notes which crossings of a cluster are no surfaces but the border of a region.
+static void find_borders(struct ray_walk *r, uint32_t from, uint32_t to)
+{
+    struct walk_lists *w = r->t->lists;
+    float steep;
+    array_reserve(&w->border, &w->border_capacity, to - from);
+    for (uint32_t i = from; i < to; i++) {
+        uint32_t id = (uint32_t)r->items[i];
+        w->border[i - from] = tile_face(r->t, &r->t->leaves[id >> 1], r->ray, id & 1,
+                                        crossing_key(r->items[i]), &steep) == FACE_REGION;
+    }
+}
+
 // Of the crossings at one place, the one whose surface shows there: the latest of the file of those
 // that matter, because the state would be another one without it, or with it alone.
 static crossing owner_of(struct ray_walk *r, uint32_t from, uint32_t to, bool solid)
 {
     uint32_t best = from, best_leaf = 0;
     bool found = false;
-    for (uint32_t i = from; i < to && to - from > 1; i++) {
+    if (to - from == 1)
+        return r->items[from];
+    find_borders(r, from, to);
+    for (uint32_t i = from; i < to; i++) {
         uint32_t leaf = r->t->leaves[(uint32_t)r->items[i] >> 1].leaf;
-        if ((found && leaf < best_leaf) || is_paired(r, from, to, i))
+        if ((found && leaf < best_leaf) || r->t->lists->border[i - from] ||
+            is_paired(r, from, to, i))
             continue;
         if (solid_if(r, from, to, i, false) == solid && solid_if(r, from, to, i, true) != solid)
             continue;
