@@ -10,8 +10,8 @@ const struct setting opencsg_settings[OPENCSG_SETTINGS] = {
 
 void result_free(struct result *r)
 {
-    struct samples *all[] = {&r->parse, &r->build, &r->picture,       &r->setup,      &r->draw,
-                             &r->spans, &r->picture_extra, &r->spans_extra};
+    struct samples *all[] = {&r->parse, &r->build, &r->picture,       &r->setup,
+                             &r->draw,  &r->spans, &r->picture_extra, &r->spans_extra};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         samples_free(all[i]);
     for (int i = 0; i < WALKS; i++) {
