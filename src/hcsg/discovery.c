@@ -7,7 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_BYTES_MOST = 10 }; // of a packed member
+enum {
+    MEMBER_BYTES_MOST = 10, // packed
+    PACKED_LOCAL = 64,      // members of a set that is packed without allocating
+};
 
 struct combinations {
     struct discovery hot;             // first, so that a pointer to it is a pointer to all
@@ -109,10 +112,13 @@ static unsigned char *write_set(unsigned char *p, const struct member *set, uint
 static const unsigned char *keep_set(struct combinations *c, const struct member *set,
                                      uint32_t count)
 {
-    unsigned char *packed = mem_alloc(((size_t)count + 1) * NUMBER_BYTES_MOST);
+    unsigned char local[(PACKED_LOCAL + 1) * MEMBER_BYTES_MOST], *packed = local;
+    if (count > PACKED_LOCAL)
+        packed = mem_alloc(((size_t)count + 1) * MEMBER_BYTES_MOST);
     size_t size = (size_t)(write_set(packed, set, count) - packed);
     const void *kept = memcpy(arena_alloc(&c->sets, size), packed, size);
-    free(packed);
+    if (packed != local)
+        free(packed);
     return kept;
 }
 
@@ -148,8 +154,9 @@ int discovery_resolve(struct discovery *d, uint64_t key, const struct member *se
     struct combinations *c = whole(d);
     bool solid = evaluate_set(c->expr, c->sharing, set, count);
     key &= VALUE_MASK;
-    if (key != 0) {
-        pthread_mutex_lock(&c->lock);
+    // Whoever would have to wait evaluates the same set once more when it comes again: cheaper than
+    // to sleep, and nobody stands still while the table grows.
+    if (key != 0 && pthread_mutex_trylock(&c->lock) == 0) {
         if (!table_find(current(c), key))
             remember(c, key, solid, set, count);
         pthread_mutex_unlock(&c->lock);

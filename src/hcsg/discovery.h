@@ -29,8 +29,9 @@ static inline int discovery_lookup(const struct discovery *d, uint64_t key)
     return record ? (int)(record >> TABLE_SOLID_SHIFT) : SET_UNKNOWN;
 }
 
-// Evaluates the set (sorted by class, counts above zero), remembers it under its key unless that is
-// known, and returns SET_EMPTY or SET_SOLID: always the truth about the set. Thread-safe.
+// Evaluates the set (sorted by class, counts above zero) and returns SET_EMPTY or SET_SOLID: always
+// the truth about the set. Remembers it under its key, unless that is known or another thread is
+// just remembering a set. Thread-safe.
 int discovery_resolve(struct discovery *d, uint64_t key, const struct member *set, uint32_t count);
 
 // Brings the stored keys in line with the values of the classes after values_renew. Keys summed

@@ -16,8 +16,7 @@ static struct tile_room room_for(const struct kernel_job *job)
     return (struct tile_room){.memory = job->memory,
                               .planes = job->frame->planes_most,
                               .leaves = b->leaf_count,
-                              .nodes = b->expr.node_count,
-                              .classes = b->sharing.class_count};
+                              .nodes = b->expr.node_count};
 }
 
 static void *worker_new(const struct kernel_job *job, uint32_t worker)
@@ -35,7 +34,7 @@ static bool worker_reuse(void *worker, const struct kernel_job *job)
     struct tile *t = worker;
     struct tile_room need = room_for(job), have = t->room;
     if (need.memory != have.memory || need.planes > have.planes || need.leaves > have.leaves ||
-        need.nodes > have.nodes || need.classes > have.classes)
+        need.nodes > have.nodes)
         return false;
     t->frame = job->frame;
     t->fragments = t->misses = t->open_rays = 0;

@@ -116,7 +116,7 @@ struct mesh_pool {
 struct tile_room {
     size_t memory;   // budget of one worker
     uint32_t planes; // of the largest convex solid
-    uint32_t leaves, nodes, classes;
+    uint32_t leaves, nodes;
 };
 
 struct tile {

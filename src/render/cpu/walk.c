@@ -18,9 +18,10 @@ struct walk_lists {
     uint32_t border_capacity;
 
     // evaluation of unknown combinations
-    uint32_t *count_of; // per class, all 0 between uses
     struct member *members;
     uint32_t member_count, member_capacity;
+    const crossing *replayed; // the list whose first crossings, after the base, made the members
+    uint32_t replayed_count;
     struct member *base; // combination at the start of the list being walked
     uint32_t base_count, base_capacity;
 
@@ -39,7 +40,6 @@ struct walk_lists *walk_new(struct tile_room room)
     w->list.size = (uint32_t)(items < 256 ? 256 : items > 1 << 20 ? 1 << 20 : items);
     w->list.items = mem_alloc(w->list.size * sizeof *w->list.items);
     w->list.spare = mem_alloc(w->list.size * sizeof *w->list.spare);
-    w->count_of = mem_zalloc((room.classes + 1) * sizeof *w->count_of);
     w->inside = mem_zalloc((room.leaves + 1) * sizeof *w->inside);
     w->solid = mem_zalloc(room.nodes + 1);
     w->room = room;
@@ -48,9 +48,8 @@ struct walk_lists *walk_new(struct tile_room room)
 
 size_t walk_bytes(const struct walk_lists *w)
 {
-    return w->list.size * 2 * sizeof(crossing) + w->room.classes * sizeof *w->count_of +
-           w->room.leaves * sizeof *w->inside + w->room.nodes +
-           w->rest_capacity * sizeof(crossing) + w->border_capacity +
+    return w->list.size * 2 * sizeof(crossing) + w->room.leaves * sizeof *w->inside +
+           w->room.nodes + w->rest_capacity * sizeof(crossing) + w->border_capacity +
            (w->member_capacity + w->base_capacity) * sizeof *w->members +
            w->span_capacity * sizeof *w->spans;
 }
@@ -63,7 +62,6 @@ void walk_delete(struct walk_lists *w)
     free(w->list.spare);
     free(w->rest);
     free(w->border);
-    free(w->count_of);
     free(w->members);
     free(w->base);
     free(w->inside);
@@ -74,38 +72,45 @@ void walk_delete(struct walk_lists *w)
 
 // ---------------------------------------------------------------- is a combination solid?
 
-static int by_class(const void *a, const void *b)
+// Counts a crossing into the members, which stay sorted by class: mostly few, so a plain search.
+static void member_step(struct walk_lists *w, uint32_t class_id, bool in)
 {
-    uint32_t p = ((const struct member *)a)->class_id, q = ((const struct member *)b)->class_id;
-    return p < q ? -1 : p > q;
+    struct member *members = w->members;
+    uint32_t at = w->member_count;
+    while (at > 0 && members[at - 1].class_id > class_id)
+        at--;
+    if (at == 0 || members[at - 1].class_id != class_id) {
+        for (uint32_t i = w->member_count++; i > at; i--)
+            members[i] = members[i - 1];
+        members[at++] = (struct member){.class_id = class_id};
+    }
+    members[at - 1].count += in ? 1 : UINT32_MAX;
+    if (!members[at - 1].count) {
+        w->member_count--;
+        for (uint32_t i = at - 1; i < w->member_count; i++)
+            members[i] = members[i + 1];
+    }
 }
 
-// The combination of `base` and the crossings items[0 .. n), sorted by class, into w->members.
+// Makes w->members the combination of the base and the crossings items[0 .. n). Goes on from where
+// the last call stopped if that was in front of n in the same list.
 static void replay(struct tile *t, const crossing *items, uint32_t n)
 {
     struct walk_lists *w = t->lists;
     const uint32_t *class_of = t->frame->body->sharing.class_of_leaf;
-    array_reserve(&w->members, &w->member_capacity, w->base_count + n + 1);
-    w->member_count = 0;
-    for (uint32_t i = 0; i < w->base_count; i++) {
-        w->count_of[w->base[i].class_id] = w->base[i].count;
-        w->members[w->member_count++].class_id = w->base[i].class_id;
+    if (w->replayed != items || w->replayed_count > n) {
+        array_reserve(&w->members, &w->member_capacity, w->base_count + 1);
+        if (w->base_count)
+            memcpy(w->members, w->base, w->base_count * sizeof *w->members);
+        w->member_count = w->base_count;
+        w->replayed = items;
+        w->replayed_count = 0;
     }
-    for (uint32_t i = 0; i < n; i++) {
-        uint32_t id = (uint32_t)items[i], c = class_of[t->leaves[id >> 1].leaf];
-        if (!(id & 1) && !w->count_of[c])
-            w->members[w->member_count++].class_id = c; // may come twice: the second is dropped
-        w->count_of[c] += id & 1 ? UINT32_MAX : 1;
+    array_reserve(&w->members, &w->member_capacity, w->member_count + (n - w->replayed_count) + 1);
+    for (; w->replayed_count < n; w->replayed_count++) {
+        uint32_t id = (uint32_t)items[w->replayed_count];
+        member_step(w, class_of[t->leaves[id >> 1].leaf], !(id & 1));
     }
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < w->member_count; i++) {
-        uint32_t c = w->members[i].class_id;
-        if (w->count_of[c])
-            w->members[kept++] = (struct member){c, w->count_of[c]};
-        w->count_of[c] = 0;
-    }
-    w->member_count = kept;
-    qsort(w->members, kept, sizeof *w->members, by_class);
 }
 
 static bool solid_hash(struct tile *t, uint64_t key, const crossing *items, uint32_t n)
@@ -252,7 +257,9 @@ static bool solid_if(struct ray_walk *r, uint32_t from, uint32_t to, uint32_t c,
         else
             step(r, r->items[i], true);
     }
+    w->replayed = NULL; // the room of `rest` held other crossings before
     bool solid = is_solid(r, rest, n);
+    w->replayed = NULL;
     for (uint32_t i = from; i < to; i++)
         if (w->border[i - from] ? r->items[i] & 1 : (i == c) != alone)
             step(r, r->items[i], false);
@@ -357,6 +364,7 @@ static void ray_begin(struct ray_walk *r, struct tile *t, int ray, bool first_on
                            .first_key = FLT_MAX,
                            .first_owner = -1};
     t->lists->base_count = 0;
+    t->lists->replayed = NULL;
     if (r->array)
         memset(t->lists->inside, 0, t->frame->body->leaf_count * sizeof *t->lists->inside);
 }
@@ -376,6 +384,7 @@ static void carry(struct ray_walk *r, uint32_t taken)
     array_reserve(&w->base, &w->base_capacity, w->member_count + 1);
     memcpy(w->base, w->members, w->member_count * sizeof *w->base);
     w->base_count = w->member_count;
+    w->replayed = NULL;
 }
 
 static void walk_in_passes(struct ray_walk *r, struct leaf_range leaves)
