@@ -1,0 +1,2 @@
+// boolean.cpp - union, intersection and difference of meshes as one mesh, on the CGAL library.
+#include "geom/boolean.h"

@@ -1,0 +1,2 @@
+// hull.c - convex hulls.
+#include "geom/hull.h"

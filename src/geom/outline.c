@@ -1,0 +1,2 @@
+// outline.c - flat shapes: closed paths in the plane.
+#include "geom/outline.h"

@@ -1,0 +1,2 @@
+// triangulate.c - flat shapes: closed paths in the plane.
+#include "geom/outline.h"

@@ -1,0 +1,2 @@
+// read_dxf.c - flat shapes from DXF drawings.
+#include "io/read_dxf.h"

@@ -1,0 +1,10 @@
+// read_obj.h - Wavefront OBJ meshes.
+#pragma once
+#include "base/error.h"
+#include "geom/solid.h"
+
+#include <stddef.h>
+
+// Reads `size` bytes, followed by a zero byte, welded. Faces of any number of corners, of all
+// objects.
+bool read_obj(const char *path, const char *data, size_t size, struct mesh *out, struct error *err);

@@ -1,0 +1,2 @@
+// read_svg.c - flat shapes from SVG pictures.
+#include "io/read_svg.h"
