@@ -1,8 +1,8 @@
 // clip.h - 2D booleans, offsets and sums, on the Clipper library with OpenSCAD's grid.
 //
 // Coordinates are cut off to multiples of 1/65536, as OpenSCAD does it, so that vertices come out
-// equal to OpenSCAD's. Results are clean. Coordinates beyond Clipper's range make a function return
-// false with an empty result.
+// equal to OpenSCAD's. Results are clean. Coordinates beyond Clipper's range, or more points than
+// CLIP_POINTS_MOST at work, make a function return false with an empty result.
 #pragma once
 #include "geom/outline.h"
 #include "geom/primitives.h"
@@ -10,6 +10,8 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+enum { CLIP_POINTS_MOST = 1 << 24 };
 
 // The shape of arbitrary paths: inside is what lies in an odd number of them.
 bool clip_clean(struct outline *out, const struct outline *in);
@@ -26,7 +28,9 @@ enum clip_join { CLIP_ROUND, CLIP_MITRE, CLIP_CHAMFER };
 // Grown by `distance`, shrunk when it is negative. `detail` says how fine round corners are.
 bool clip_offset(struct outline *out, const struct outline *in, double distance,
                  enum clip_join join, struct detail detail);
-// All points between an open or closed line and the lines at half of `width` to both of its sides.
+// All points between a line and the lines at half of `width` to both of its sides. Its coordinates
+// are cut off to multiples of 1/10000, those of the result are not cut off any further: so OpenSCAD
+// draws the lines of SVG files.
 enum clip_cap { CLIP_CAP_BUTT, CLIP_CAP_ROUND, CLIP_CAP_SQUARE };
 bool clip_stroke(struct outline *out, const struct vec2 *line, uint32_t count, double width,
                  enum clip_cap cap, enum clip_join join);
