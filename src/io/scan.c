@@ -1,8 +1,8 @@
 // scan.c - words and numbers of a text file, by line, whatever the locale.
 #include "io/scan.h"
 
-#include <math.h>
-#include <stdlib.h>
+#include "io/number.h"
+
 #include <string.h>
 
 void scan_open(struct scan *s, const char *path, const char *data, size_t size)
@@ -69,9 +69,9 @@ bool scan_number(struct scan *s, double *out)
 {
     if (!in_word(s, s->at))
         return false;
-    char *stop;
-    double value = strtod_l(s->at, &stop, s->numbers);
-    if (stop == s->at || stop > s->end || in_word(s, stop) || !isfinite(value))
+    const char *stop;
+    double value;
+    if (!number_read(s->at, s->numbers, &value, &stop) || stop > s->end || in_word(s, stop))
         return false;
     s->at = stop;
     *out = value;
