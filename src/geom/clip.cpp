@@ -64,10 +64,8 @@ Paths cleaned(const PolyTree &tree)
     return paths;
 }
 
-// The paths of a clean shape on the grid. Otherwise they are made to run the same way round, which
-// changes the result's vertices in corner cases, and become the shape of what lies in an odd number
-// of them.
-Paths paths_of(const struct outline *o)
+// The paths on the grid as they are.
+Paths paths_as_given(const struct outline *o)
 {
     Paths paths;
     if (!o)
@@ -76,7 +74,15 @@ Paths paths_of(const struct outline *o)
         refuse("too many points");
     for (uint32_t i = 0, begin = 0; i < o->path_count; begin = o->ends[i++])
         paths.push_back(quantised(o->points + begin, o->ends[i] - begin, GRID));
-    if (o->clean)
+    return paths;
+}
+
+// Paths of a shape that is not clean are made to run the same way round, which changes the result's
+// vertices in corner cases, and become the shape of what lies in an odd number of them.
+Paths paths_of(const struct outline *o)
+{
+    Paths paths = paths_as_given(o);
+    if (!o || o->clean)
         return paths;
 
     for (Path &path : paths)
@@ -103,12 +109,13 @@ template <typename Work> bool guarded(struct outline *out, double grid, Work wor
 }
 
 // All shapes at once: the first is the subject, the others clip it.
-Paths combined(ClipType type, const struct outline *const *shapes, uint32_t count)
+Paths combined(ClipType type, Paths (*paths)(const struct outline *),
+               const struct outline *const *shapes, uint32_t count)
 {
     Clipper clipper;
     PolyTree tree;
     for (uint32_t i = 0; i < count; i++)
-        clipper.AddPaths(paths_of(shapes[i]), i == 0 ? ptSubject : ptClip, true);
+        clipper.AddPaths(paths(shapes[i]), i == 0 ? ptSubject : ptClip, true);
     clipper.Execute(type, tree, pftNonZero, pftNonZero);
     return cleaned(tree);
 }
@@ -137,7 +144,8 @@ bool combine(ClipType type, struct outline *out, const struct outline *const *sh
     return guarded(out, GRID, [=]() -> Paths {
         if (count < 2)
             return count ? paths_of(shapes[0]) : Paths();
-        return type == ctIntersection ? common(shapes, count) : combined(type, shapes, count);
+        return type == ctIntersection ? common(shapes, count)
+                                      : combined(type, paths_of, shapes, count);
     });
 }
 } // namespace
@@ -152,6 +160,11 @@ bool clip_clean(struct outline *out, const struct outline *in)
 bool clip_union(struct outline *out, const struct outline *const *shapes, uint32_t count)
 {
     return combine(ctUnion, out, shapes, count);
+}
+
+bool clip_nonzero(struct outline *out, const struct outline *const *shapes, uint32_t count)
+{
+    return guarded(out, GRID, [=] { return combined(ctUnion, paths_as_given, shapes, count); });
 }
 
 bool clip_difference(struct outline *out, const struct outline *const *shapes, uint32_t count)

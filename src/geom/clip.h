@@ -23,6 +23,10 @@ bool clip_union(struct outline *out, const struct outline *const *shapes, uint32
 bool clip_difference(struct outline *out, const struct outline *const *shapes, uint32_t count);
 bool clip_intersection(struct outline *out, const struct outline *const *shapes, uint32_t count);
 
+// All together of shapes with paths in either direction that may cross each other, as in fonts:
+// inside of each is what its paths wind around.
+bool clip_nonzero(struct outline *out, const struct outline *const *shapes, uint32_t count);
+
 enum clip_join { CLIP_ROUND, CLIP_MITRE, CLIP_CHAMFER };
 
 // Grown by `distance`, shrunk when it is negative. `detail` says how fine round corners are.

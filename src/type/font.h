@@ -1,0 +1,35 @@
+// font.h - the fonts of this machine: chosen by fontconfig, opened once, their glyphs kept.
+#pragma once
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_GLYPH_H
+#include <hb.h>
+
+#include <stdbool.h>
+#include <stdint.h>
+
+// OpenSCAD sets all fonts at this size, 1562.5 points at 100 dots an inch, and scales the outlines:
+// these are so many units for a text of size 1.
+enum { FONT_UNITS = 100000, FONT_DPI = 100 };
+
+// One face of a font file at that size. Lives as long as the program.
+struct font {
+    char *file;
+    int index; // of the face in its file
+    FT_Face face;
+    hb_font_t *shaper;
+    bool symbols;     // characters up to 0xFF stand at 0xF000 and above: Microsoft's symbol fonts
+    FT_Glyph *glyphs; // by number, NULL until needed
+};
+
+// FreeType and HarfBuzz serve one thread at a time: the functions below, and everything done with a
+// font, belong between these two. A glyph once given out never changes, and may be read without.
+void font_lock(void);
+void font_unlock(void);
+
+// The best match for a name as fontconfig writes it, "Liberation Sans:style=Bold"; fontconfig
+// always finds one. NULL only when there are no fonts or the file of the match cannot be used.
+struct font *font_open(const char *name);
+
+// The hinted outline of a glyph; NULL when the font is broken there or has no outline for it.
+FT_Glyph font_glyph(struct font *f, uint32_t number);
