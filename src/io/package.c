@@ -15,7 +15,7 @@ enum { RATIO_MOST = 256, PART = 1 << 16 };
 struct package {
     zip_t *zip;
     const char *path;
-    uint64_t limit; // of one file, unpacked
+    uint64_t limit, unpacked; // bytes, of all files read
 };
 
 bool package_is_zip(const char *data, size_t size)
@@ -33,7 +33,8 @@ struct package *package_open(const char *path, const char *data, size_t size, st
     if (zip) {
         uint64_t limit = ALWAYS_ALLOWED + (uint64_t)size * RATIO_MOST;
         p = mem_alloc(sizeof *p);
-        *p = (struct package){zip, path, limit < UNPACKED_MOST ? limit : UNPACKED_MOST};
+        *p = (struct package){
+            .zip = zip, .path = path, .limit = limit < UNPACKED_MOST ? limit : UNPACKED_MOST};
     } else {
         error_set(err, "%s: zip: %s", path, zip_error_strerror(&why));
         zip_source_free(source);
@@ -55,6 +56,11 @@ int64_t package_count(const struct package *p)
     return zip_get_num_entries(p->zip, 0);
 }
 
+const char *package_name(const struct package *p, int64_t file)
+{
+    return zip_get_name(p->zip, (zip_uint64_t)file, 0);
+}
+
 int64_t package_find(const struct package *p, const char *name)
 {
     int64_t file = zip_name_locate(p->zip, name, ZIP_FL_ENC_GUESS);
@@ -66,11 +72,10 @@ static bool hand_over(struct package *p, zip_file_t *file,
                       struct error *err)
 {
     char *part = mem_alloc(PART);
-    uint64_t sum = 0;
     bool ok = true;
     for (int64_t n; ok && (n = zip_fread(file, part, PART)) != 0;) {
-        sum += n > 0 ? (uint64_t)n : 0;
-        ok = n > 0 && sum <= p->limit;
+        p->unpacked += n > 0 ? (uint64_t)n : 0;
+        ok = n > 0 && p->unpacked <= p->limit;
         if (n < 0)
             error_set(err, "%s: zip: %s", p->path, zip_file_strerror(file));
         else if (!ok)

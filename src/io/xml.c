@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SEPARATOR = '\n' }; // between namespace and name: stands in neither
-
 struct xml {
     XML_Parser parser;
     const struct xml_format *format;
@@ -49,7 +47,7 @@ static void stop(struct xml *x)
 static int find_element(const struct xml *x, const char *name)
 {
     const struct xml_format *f = x->format;
-    const char *separator = strchr(name, SEPARATOR);
+    const char *separator = strchr(name, *XML_SEPARATOR);
     if (f->xmlns && (!separator || strlen(f->xmlns) != (size_t)(separator - name) ||
                      memcmp(name, f->xmlns, (size_t)(separator - name)) != 0))
         return 0;
@@ -124,7 +122,7 @@ struct xml *xml_new(const char *path, const struct xml_format *format, void *use
 {
     struct xml *x = mem_zalloc(sizeof *x);
     *x = (struct xml){.format = format, .user = user, .path = path, .err = err};
-    x->parser = XML_ParserCreateNS(NULL, SEPARATOR);
+    x->parser = XML_ParserCreateNS(NULL, *XML_SEPARATOR);
     if (!x->parser) {
         error_set(err, "%s: XML: out of memory", path);
         free(x);
@@ -186,11 +184,24 @@ static const char *skip_blanks(const char *text)
     return text + strspn(text, " \t\r\n");
 }
 
-bool xml_number(const struct xml *x, const char *text, double *out)
+bool xml_is_blank(const char *text)
+{
+    return *skip_blanks(text) == 0;
+}
+
+bool xml_next_number(const struct xml *x, const char **text, double *out)
 {
     const char *stop;
-    text = skip_blanks(text);
-    return number_read(text, x->numbers, out, &stop) && *skip_blanks(stop) == 0;
+    if (!number_read(skip_blanks(*text), x->numbers, out, &stop) ||
+        (*stop && skip_blanks(stop) == stop))
+        return false;
+    *text = stop;
+    return true;
+}
+
+bool xml_number(const struct xml *x, const char *text, double *out)
+{
+    return xml_next_number(x, &text, out) && xml_is_blank(text);
 }
 
 bool xml_count(const char *text, uint32_t *out)
@@ -199,7 +210,7 @@ bool xml_count(const char *text, uint32_t *out)
     const char *p = text = skip_blanks(text);
     while (*p >= '0' && *p <= '9' && value <= UINT32_MAX)
         value = value * 10 + (uint64_t)(*p++ - '0');
-    if (p == text || value > UINT32_MAX || *skip_blanks(p) != 0)
+    if (p == text || value > UINT32_MAX || !xml_is_blank(p))
         return false;
     *out = (uint32_t)value;
     return true;

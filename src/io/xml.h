@@ -37,8 +37,11 @@ bool xml_finish(struct xml *x);
 
 void xml_error(struct xml *x, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-// The value of an attribute without namespace, or NULL.
+// The value of an attribute, or NULL. With a namespace: its address, XML_SEPARATOR, the name.
+#define XML_SEPARATOR "\n"
 const char *xml_attribute(const char **attributes, const char *name);
 // The whole text, without blanks around it, as a finite number or a whole one.
 bool xml_number(const struct xml *x, const char *text, double *out);
+bool xml_next_number(const struct xml *x, const char **text, double *out); // of several
+bool xml_is_blank(const char *text);
 bool xml_count(const char *text, uint32_t *out);
