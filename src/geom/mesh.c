@@ -1,8 +1,6 @@
 // mesh.c - building and measuring indexed triangle meshes.
 #include "geom/mesh.h"
 
-#include "base/hash.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,18 +37,20 @@ void mesh_add_convex(struct mesh_builder *b, const uint32_t *corners, uint32_t c
         mesh_add_triangle(b, corners[0], corners[i - 1], corners[i], face);
 }
 
-// Open addressing over vertex numbers; a slot holds number + 1.
-static uint32_t *find_slot(uint32_t *slots, size_t mask, const struct vec3 *vertices, struct vec3 p)
+static void drop_collapsed(struct mesh *m)
 {
-    struct vec3 key = {p.x + 0.0, p.y + 0.0, p.z + 0.0}; // -0 becomes 0
-    size_t at = hash_bytes(0, &key, sizeof key) & mask;
-    while (slots[at]) {
-        struct vec3 q = vertices[slots[at] - 1];
-        if (q.x == p.x && q.y == p.y && q.z == p.z)
-            break;
-        at = (at + 1) & mask;
+    uint32_t kept = 0;
+    for (uint32_t t = 0; t < m->triangle_count; t++) {
+        const uint32_t *c = m->triangles[t];
+        if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
+            continue;
+        if (kept < t) {
+            memcpy(m->triangles[kept], c, sizeof m->triangles[t]);
+            m->faces[kept] = m->faces[t];
+        }
+        kept++;
     }
-    return &slots[at];
+    m->triangle_count = kept;
 }
 
 // Gives the used entries of `number` consecutive new numbers in their order; returns how many.
@@ -63,60 +63,46 @@ static uint32_t renumber(uint32_t *number, uint32_t count)
     return next;
 }
 
-static void drop_collapsed(struct mesh *m, const uint32_t *same)
+static void drop_vertices(struct mesh *m)
 {
-    uint32_t kept = 0;
-    for (uint32_t t = 0; t < m->triangle_count; t++) {
-        const uint32_t *old = m->triangles[t];
-        uint32_t i = same[old[0]], j = same[old[1]], k = same[old[2]];
-        if (i == j || j == k || k == i)
-            continue;
-        m->triangles[kept][0] = i;
-        m->triangles[kept][1] = j;
-        m->triangles[kept][2] = k;
-        m->faces[kept++] = m->faces[t];
+    uint32_t *number = mem_alloc((size_t)m->vertex_count * sizeof *number);
+    memset(number, 0xff, (size_t)m->vertex_count * sizeof *number);
+    for (uint32_t t = 0; t < m->triangle_count; t++)
+        for (int i = 0; i < 3; i++)
+            number[m->triangles[t][i]] = 0;
+    uint32_t count = renumber(number, m->vertex_count);
+    if (count < m->vertex_count) {
+        for (uint32_t v = 0; v < m->vertex_count; v++)
+            if (number[v] != UINT32_MAX)
+                m->vertices[number[v]] = m->vertices[v];
+        for (uint32_t t = 0; t < m->triangle_count; t++)
+            for (int i = 0; i < 3; i++)
+                m->triangles[t][i] = number[m->triangles[t][i]];
+        m->vertex_count = count;
     }
-    m->triangle_count = kept;
+    free(number);
 }
 
-void mesh_weld(struct mesh *m)
+static void drop_faces(struct mesh *m)
 {
-    size_t size = 16;
-    while (size < (size_t)m->vertex_count * 2)
-        size *= 2;
-    uint32_t *slots = mem_zalloc(size * sizeof *slots);
-    uint32_t *same = mem_alloc((size_t)m->vertex_count * sizeof *same); // the first equal vertex
-    for (uint32_t v = 0; v < m->vertex_count; v++) {
-        uint32_t *slot = find_slot(slots, size - 1, m->vertices, m->vertices[v]);
-        if (!*slot)
-            *slot = v + 1;
-        same[v] = *slot - 1;
+    uint32_t *number = mem_alloc((size_t)m->face_count * sizeof *number);
+    memset(number, 0xff, (size_t)m->face_count * sizeof *number);
+    for (uint32_t t = 0; t < m->triangle_count; t++)
+        number[m->faces[t]] = 0;
+    uint32_t count = renumber(number, m->face_count);
+    if (count < m->face_count) {
+        for (uint32_t t = 0; t < m->triangle_count; t++)
+            m->faces[t] = number[m->faces[t]];
+        m->face_count = count;
     }
-    free(slots);
-    drop_collapsed(m, same);
+    free(number);
+}
 
-    uint32_t *vertex = same; // reused as the map of numbers
-    uint32_t *face = mem_alloc((size_t)m->face_count * sizeof *face);
-    memset(vertex, 0xff, (size_t)m->vertex_count * sizeof *vertex);
-    memset(face, 0xff, (size_t)m->face_count * sizeof *face);
-    for (uint32_t t = 0; t < m->triangle_count; t++) {
-        face[m->faces[t]] = 0;
-        for (int i = 0; i < 3; i++)
-            vertex[m->triangles[t][i]] = 0;
-    }
-    uint32_t vertex_count = renumber(vertex, m->vertex_count);
-    m->face_count = renumber(face, m->face_count);
-    for (uint32_t v = 0; v < m->vertex_count; v++)
-        if (vertex[v] != UINT32_MAX)
-            m->vertices[vertex[v]] = m->vertices[v];
-    m->vertex_count = vertex_count;
-    for (uint32_t t = 0; t < m->triangle_count; t++) {
-        m->faces[t] = face[m->faces[t]];
-        for (int i = 0; i < 3; i++)
-            m->triangles[t][i] = vertex[m->triangles[t][i]];
-    }
-    free(face);
-    free(vertex);
+void mesh_drop_unused(struct mesh *m)
+{
+    drop_collapsed(m);
+    drop_vertices(m);
+    drop_faces(m);
 }
 
 struct box mesh_bounds(const struct mesh *m)

@@ -15,8 +15,10 @@ void mesh_add_triangle(struct mesh_builder *b, uint32_t i, uint32_t j, uint32_t 
 // A flat convex polygon as one face: a fan around its first corner.
 void mesh_add_convex(struct mesh_builder *b, const uint32_t *corners, uint32_t count);
 
-// Merges vertices that are equal in coordinates (0 equals -0), drops triangles that have two equal
-// corners then, vertices without triangles and faces without triangles. Keeps all orders.
+// Drops triangles with two equal corners, vertices without triangles and faces without triangles.
+// Keeps all orders.
+void mesh_drop_unused(struct mesh *m);
+// Merges vertices that are equal in coordinates (0 equals -0), then drops what is unused.
 void mesh_weld(struct mesh *m);
 
 struct box mesh_bounds(const struct mesh *m);
