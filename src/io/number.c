@@ -52,7 +52,7 @@ static bool read_short(const char *p, double *out, const char **stop)
     int exponent = read_exponent(&p) - decimals;
     if (exponent < -22 || exponent > 22)
         return false;
-    // Whatever else may belong to the number is strtod's: more digits, 0x, a longer exponent.
+    // Whatever else may belong to the number is strtod's: more digits, a longer exponent.
     if ((*p >= '0' && *p <= '9') || (*p >= 'A' && *p <= 'Z') || (*p >= 'a' && *p <= 'z'))
         return false;
     double value = (double)mantissa;
@@ -66,6 +66,9 @@ bool number_read(const char *text, locale_t numbers, double *out, const char **s
 {
     if (read_short(text, out, stop))
         return true;
+    const char *digits = text + (*text == '-' || *text == '+');
+    if (digits[0] == '0' && (digits[1] | 32) == 'x')
+        return false; // strtod would read it
     char *after;
     double value = strtod_l(text, &after, numbers);
     if (after == text || !isfinite(value))
