@@ -17,6 +17,9 @@ namespace
 constexpr double GRID = 65536;
 constexpr double STROKE_GRID = 10000; // OpenSCAD's for the lines of SVG files
 constexpr double MITRE_LIMIT = 1e6;
+// Sums of so few pairs of sides are made of all pairs, as OpenSCAD makes them: then the order of
+// their vertices is the same too. Quicker ways take over above.
+constexpr double PAIRS_FEW = 4096;
 
 // Thrown like Clipper's own refusals; `guarded` turns all of them into `false`.
 [[noreturn]] void refuse(const char *why)
@@ -257,7 +260,7 @@ bool clip_stroke(struct outline *out, const struct vec2 *line, uint32_t count, d
         if (count > CLIP_POINTS_MOST)
             refuse("too many points");
         Paths lines = {quantised(line, count, STROKE_GRID)}, stroke;
-        double delta = width / 2 * STROKE_GRID;
+        double delta = width * (STROKE_GRID / 2);
         check_reach(lines, 2 * std::fabs(delta));
         ClipperOffset offset; // with its own limit of mitres, 2, and fineness of arcs
         offset.AddPaths(lines, join_type(join), end_type(cap));
@@ -268,12 +271,28 @@ bool clip_stroke(struct outline *out, const struct vec2 *line, uint32_t count, d
 
 namespace
 {
+IntPoint operator+(const IntPoint &a, const IntPoint &b)
+{
+    return {a.X + b.X, a.Y + b.Y};
+}
+
+IntPoint operator-(const IntPoint &a, const IntPoint &b)
+{
+    return {a.X - b.X, a.Y - b.Y};
+}
+
+double cross(const IntPoint &a, const IntPoint &b)
+{
+    return static_cast<double>(a.X) * static_cast<double>(b.Y) -
+           static_cast<double>(a.Y) * static_cast<double>(b.X);
+}
+
 Path moved(const Path &path, const IntPoint &by)
 {
     Path result;
     result.reserve(path.size());
     for (const IntPoint &p : path)
-        result.emplace_back(p.X + by.X, p.Y + by.Y);
+        result.push_back(p + by);
     return result;
 }
 
@@ -300,27 +319,90 @@ void add_insides(Paths *terms, const Paths &a, const Paths &b)
                 terms->push_back(moved(path, part[0]));
 }
 
-size_t point_count(const Paths &paths)
+bool is_convex(const Paths &paths)
 {
-    size_t count = 0;
+    struct outline o = {};
+    store(paths, 1, &o);
+    bool convex = outline_is_convex(&o);
+    outline_free(&o);
+    return convex;
+}
+
+Path from_lowest(Path path)
+{
+    path.erase(std::unique(path.begin(), path.end()), path.end());
+    auto lowest = std::min_element(path.begin(), path.end(), [](auto &a, auto &b) {
+        return a.Y < b.Y || (a.Y == b.Y && a.X < b.X);
+    });
+    std::rotate(path.begin(), lowest, path.end());
+    return path;
+}
+
+// The sum of two convex paths that begin at their lowest points: the sides of both by direction.
+// A path of two points is a segment, there and back.
+Path convex_sum(const Path &a, const Path &b)
+{
+    Path sum;
+    for (size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+        IntPoint from_a = a[i % a.size()], from_b = b[j % b.size()];
+        double turn = cross(a[(i + 1) % a.size()] - from_a, b[(j + 1) % b.size()] - from_b);
+        sum.push_back(from_a + from_b);
+        bool a_next = j == b.size() || (i < a.size() && turn >= 0);
+        bool b_next = i == a.size() || (j < b.size() && turn <= 0);
+        i += a_next;
+        j += b_next;
+    }
+    return sum;
+}
+
+// With a convex shape each side of the other one covers a convex region, so that there are as many
+// terms as sides. Their outer sides are those of the sweeps, hence the result's as well.
+void add_convex_sweep(Paths *terms, const Paths &a, const Path &convex)
+{
+    for (const Path &path : a)
+        for (size_t i = 0; i < path.size(); i++) {
+            const IntPoint &p = path[i], &q = path[(i + 1) % path.size()];
+            terms->push_back(convex_sum(from_lowest({p, q}), convex));
+        }
+    add_insides(terms, a, {convex});
+}
+
+double point_count(const Paths &paths)
+{
+    double count = 0;
     for (const Path &path : paths)
-        count += path.size();
+        count += static_cast<double>(path.size());
     return count;
 }
 
-Paths sum(const Paths &a, const Paths &b)
+Paths sum_terms(const Paths &a, const Paths &b)
 {
-    if (point_count(a) * point_count(b) > CLIP_POINTS_MOST / 4)
-        refuse("too many points");
     Paths terms;
+    double pairs = point_count(a) * point_count(b);
+    if (pairs > PAIRS_FEW) {
+        bool a_convex = is_convex(a), b_convex = is_convex(b);
+        if (a_convex && b_convex)
+            return {convex_sum(from_lowest(a[0]), from_lowest(b[0]))};
+        if (pairs * (a_convex || b_convex ? 1 : 4) > CLIP_POINTS_MOST)
+            refuse("too many points");
+        if (a_convex || b_convex) {
+            add_convex_sweep(&terms, a_convex ? b : a, from_lowest(a_convex ? a[0] : b[0]));
+            return terms;
+        }
+    }
     for (const Path &along : b)
         for (const Path &path : a)
             add_sweep(&terms, path, along);
     add_insides(&terms, a, b);
     add_insides(&terms, b, a);
+    return terms;
+}
+
+Paths sum(const Paths &a, const Paths &b)
+{
     Clipper clipper;
     PolyTree tree;
-    clipper.AddPaths(terms, ptSubject, true);
+    clipper.AddPaths(sum_terms(a, b), ptSubject, true);
     clipper.Execute(ctUnion, tree, pftNonZero, pftNonZero);
     return cleaned(tree);
 }
