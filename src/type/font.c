@@ -29,6 +29,15 @@ static struct {
     uint32_t oldest;
 } fonts = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
+#ifdef HCSG_SANITIZED
+// fontconfig notes where its memory lies as offsets, which the search for leaks does not follow.
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libfontconfig\n";
+}
+#endif
+
 void font_lock(void)
 {
     pthread_mutex_lock(&fonts.lock);
@@ -113,6 +122,15 @@ static void choose_charmap(FT_Face face)
             return;
 }
 
+// Microsoft wants the characters of symbol fonts from 0xF000 on; not all of them follow.
+static bool has_moved_symbols(FT_Face face)
+{
+    FT_UInt glyph;
+
+    return face->charmap && face->charmap->encoding == FT_ENCODING_MS_SYMBOL &&
+           FT_Get_First_Char(face, &glyph) >= 0xF000 && glyph;
+}
+
 static struct font *open_face(const char *file, int index)
 {
     FT_Face face;
@@ -129,8 +147,7 @@ static struct font *open_face(const char *file, int index)
     f->index = index;
     f->face = face;
     f->shaper = hb_ft_font_create(face, NULL);
-    f->symbols = face->charmap && face->charmap->platform_id == TT_PLATFORM_MICROSOFT &&
-                 face->charmap->encoding_id == TT_MS_ID_SYMBOL_CS;
+    f->symbols = has_moved_symbols(face);
     f->glyphs = mem_zalloc((size_t)face->num_glyphs * sizeof *f->glyphs);
     return f;
 }

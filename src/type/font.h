@@ -18,7 +18,7 @@ struct font {
     int index; // of the face in its file
     FT_Face face;
     hb_font_t *shaper;
-    bool symbols;     // characters up to 0xFF stand at 0xF000 and above: Microsoft's symbol fonts
+    bool symbols;     // its characters below 0x100 stand at 0xF000 and above
     FT_Glyph *glyphs; // by number, NULL until needed
 };
 

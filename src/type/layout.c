@@ -7,7 +7,9 @@
 
 #include <string.h>
 
-enum { UNITS_2021 = 102400 };
+// Multiplied with, not divided by: OpenSCAD's grid shows the difference.
+#define UNIT_2021  (0.01 / 1024)
+#define UNIT_NEWER (1.0 / FONT_UNITS)
 
 // What is added to the coordinates of an aligned row.
 struct anchors {
@@ -28,12 +30,12 @@ static struct anchors anchors_2021(const struct letters *row, double spacing)
     for (uint32_t i = 0; i < row->count; i++) {
         const struct letter *l = &row->items[i];
         if (row->vertical) {
-            width = fmax(width, (double)(l->box.xMax - l->box.xMin) / UNITS_2021);
-            up += l->advance.y / UNITS_2021 * spacing;
+            width = fmax(width, (double)(l->box.xMax - l->box.xMin) * UNIT_2021);
+            up += l->advance.y * UNIT_2021 * spacing;
         } else {
-            width += l->advance.x / UNITS_2021 * spacing;
-            up = fmax(up, (double)l->box.yMax / UNITS_2021);
-            down = fmax(down, (double)-l->box.yMin / UNITS_2021);
+            width += l->advance.x * UNIT_2021 * spacing;
+            up = fmax(up, (double)l->box.yMax * UNIT_2021);
+            down = fmax(down, (double)-l->box.yMin * UNIT_2021);
         }
     }
     return (struct anchors){0, -width / 2, -width, -up, (down - up) / 2, down};
@@ -47,15 +49,15 @@ static struct anchors anchors_newer(const struct letters *row, double spacing)
     for (uint32_t i = 0; i < row->count; i++) {
         const struct letter *l = &row->items[i];
         if (l->box.xMax > l->box.xMin && l->box.yMax > l->box.yMin) {
-            double x = at.x + l->offset.x / FONT_UNITS;
-            struct vec3 low = {x + (double)l->box.xMin / FONT_UNITS,
-                               (double)l->box.yMin / FONT_UNITS, 0};
-            struct vec3 high = {x + (double)l->box.xMax / FONT_UNITS,
-                                (double)l->box.yMax / FONT_UNITS, 0};
+            double x = at.x + l->offset.x * UNIT_NEWER;
+            struct vec3 low = {x + (double)l->box.xMin * UNIT_NEWER,
+                               (double)l->box.yMin * UNIT_NEWER, 0};
+            struct vec3 high = {x + (double)l->box.xMax * UNIT_NEWER,
+                                (double)l->box.yMax * UNIT_NEWER, 0};
             ink = box_of_point(box_of_point(ink, low), high);
         }
-        at.x += l->advance.x / FONT_UNITS * spacing;
-        at.y += l->advance.y / FONT_UNITS * spacing;
+        at.x += l->advance.x * UNIT_NEWER * spacing;
+        at.y += l->advance.y * UNIT_NEWER * spacing;
     }
     if (box_is_empty(ink))
         return (struct anchors){0};
@@ -91,6 +93,6 @@ struct layout layout_make(const struct letters *row, const struct text_line *lin
     int column = find_word(line->halign, "halign", across, "", place, messages);
     int level = find_word(line->valign, "valign", upward, "baseline", place, messages);
 
-    return (struct layout){.unit = newer ? FONT_UNITS : UNITS_2021,
+    return (struct layout){.unit = newer ? UNIT_NEWER : UNIT_2021,
                            .start = {column < 0 ? 0 : x[column], level < 0 ? 0 : y[level]}};
 }

@@ -2,7 +2,7 @@
 #pragma once
 #include "type/shape.h"
 
-// `unit` turns the lengths of letters into those of a text of size 1, in which `start` is.
+// `unit` is what a length of 1 in `struct letter` makes in a text of size 1, in which `start` is.
 struct layout {
     double unit;
     struct vec2 start;

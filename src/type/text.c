@@ -77,14 +77,14 @@ static struct piece *make_pieces(const struct letters *row, const struct text_li
     for (uint32_t i = 0; i < row->count; i++) {
         const struct letter *l = &row->items[i];
         struct piece *piece = &pieces[i];
-        place.offset = (struct vec2){layout->start.x + l->offset.x / layout->unit,
-                                     layout->start.y + l->offset.y / layout->unit};
+        place.offset = (struct vec2){layout->start.x + l->offset.x * layout->unit,
+                                     layout->start.y + l->offset.y * layout->unit};
         glyph_append(&piece->outline, l->outline, &place);
         struct box box = outline_bounds(&piece->outline);
         piece->from = row->vertical ? box.min.y : box.min.x;
         piece->to = row->vertical ? box.max.y : box.max.x;
-        place.advance.x += l->advance.x / layout->unit * line->spacing;
-        place.advance.y += l->advance.y / layout->unit * line->spacing;
+        place.advance.x += l->advance.x * layout->unit * line->spacing;
+        place.advance.y += l->advance.y * layout->unit * line->spacing;
     }
     return pieces;
 }
