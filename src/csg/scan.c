@@ -256,6 +256,38 @@ static const char *raw_end(struct csg_parser *p, const char *text)
     return NULL;
 }
 
+// Does the text follow the pattern, in which # is anything but a comma, a quote or a line's end?
+static bool follows(const char *s, const char *pattern)
+{
+    for (; *pattern; pattern++) {
+        if (*pattern == '#')
+            s += strcspn(s, ",\"\n");
+        else if (*s++ != *pattern)
+            return false;
+    }
+    return true;
+}
+
+// Is this the text or the font of a text() as OpenSCAD exports it? Then backslashes, too, are part
+// of it. Exports have all arguments, in this order and with these blanks; nobody writes that by
+// hand.
+static bool is_exported(const struct csg_parser *p, const char *quote, const char *close)
+{
+    static const struct {
+        const char *before, *after;
+    } exports[] = {{"text(text = ", ", size = #, spacing = #, font = \""},
+                   {", font = ", ", direction = \"#\", language = \"#\", "}};
+
+    for (size_t i = 0; i < sizeof exports / sizeof *exports; i++) {
+        size_t length = strlen(exports[i].before);
+        if ((size_t)(quote - p->text) >= length &&
+            memcmp(quote - length, exports[i].before, length) == 0 &&
+            follows(close + 1, exports[i].after))
+            return true;
+    }
+    return false;
+}
+
 static char *put_utf8(char *out, uint32_t c)
 {
     if (c > 0x10FFFF || (c >= 0xD800 && c < 0xE000))
@@ -316,12 +348,19 @@ static bool after_equals(struct csg_parser *p, const char *quote)
     return quote >= p->text && *quote == '=';
 }
 
+// The rule for strings: a string ends at the first quote without a backslash, and escapes mean what
+// they mean in OpenSCAD, as long as something follows that can follow a string. Otherwise, and
+// where all of an exported text() follows, the string is one that OpenSCAD wrote without escapes:
+// all characters mean themselves, and it ends at the first quote before another argument or the
+// end.
 const char *csg_scan_string(struct csg_parser *p, const char *quote, struct csg_value *value)
 {
     const char *text = quote + 1, *close = closing_quote(text), *raw = NULL;
 
     if (after_equals(p, quote) && (!*close || !any_follows(close + 1)))
         raw = raw_end(p, text);
+    else if (memchr(text, '\\', (size_t)(close - text)) && is_exported(p, quote, close))
+        raw = close;
     bool lines = memchr(text, '\n', (size_t)(close - text)) != NULL;
     if (!raw && (!*close || (lines && !any_follows(close + 1)))) {
         p->unclosed_end = text + strcspn(text, "\n");

@@ -23,6 +23,11 @@ static bool parse(struct csg_tree *tree, const char *input, struct messages *mes
     return ok;
 }
 
+// A text() as OpenSCAD exports it.
+#define EXPORTED(text, font)                                                                       \
+    "text(text = \"" text "\", size = 10, spacing = 1, font = \"" font "\", direction = \"ltr\", " \
+    "language = \"en\", halign = \"left\", valign = \"baseline\");\n"
+
 static void accepted_text_prints(void **state)
 {
     static const struct {
@@ -93,6 +98,15 @@ static void accepted_text_prints(void **state)
         {"text(text = \"f(\"x\")\", size = 10);", "text(text = \"f(\"x\")\", size = 10);\n\n"},
         {"text(text = \"back\\\", size = 10, font = \"L\");",
          "text(text = \"back\\\", size = 10, font = \"L\");\n\n"},
+        {EXPORTED("5\", or 6\"", "L\"M"), EXPORTED("5\", or 6\"", "L\"M") "\n"},
+        {EXPORTED("\"", "\""), EXPORTED("\"", "\"") "\n"},
+        // nor backslashes: in what is certainly an export they are no escapes
+        {EXPORTED("a\\new\\\"b\"\\", "Foo\\-Bar"), EXPORTED("a\\new\\\"b\"\\", "Foo\\-Bar") "\n"},
+        {EXPORTED("C:\\x41", ""), EXPORTED("C:\\x41", "") "\n"},
+        {"text(text = \"a\\x41\\n\", size = 10, spacing = 1, font = 0);",
+         "text(text = \"aA\n\", size = 10, spacing = 1, font = 0);\n\n"},
+        {"text(text = \"C:\\\\x\", font = \"a\\-b\");",
+         "text(text = \"C:\\x\", font = \"a-b\");\n\n"},
         {"text(size = 10, text = \"\"q\"\") {a();}",
          "text(size = 10, text = \"\"q\"\") {\n\ta();\n}\n\n"},
     };
