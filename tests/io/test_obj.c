@@ -44,9 +44,9 @@ static void crossings_do_not_count(void **state)
 {
     (void)state;
     accept("v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 1 0\nf 1 2 3 4\nv 9 0 0\nv 9 1 0\nv 9 0 1\nf 5 6 7\n", 8,
-           3, 0);
+           3, 1.5);
     accept("v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 1 0\nf 1 2 3 4\nv 9 0 0\nv 9 1 0\nv 9 0 1\nf -1 -2 -3",
-           8, 3, 0);
+           8, 3, -1.5);
 }
 
 static void wrong_files(void **state)
