@@ -12,9 +12,13 @@
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <unordered_map>
 
 extern "C" {
+#include "base/hash.h"
 #include "geom/boolean.h"
 #include "geom/mesh.h"
 }
@@ -41,18 +45,52 @@ void add_points(const struct mesh *m, const char *which, std::vector<struct vec3
     }
 }
 
-// Makes equal points one; returns the new number of each.
-std::vector<uint32_t> weld(std::vector<struct vec3> *points)
+// By far more than rounding moves points by, by far less than OpenSCAD's grid of 2^-20 for extents
+// it is used with.
+double tolerance_for(const std::vector<struct vec3> &points)
 {
-    auto key = [&](uint32_t i) { return std::tie((*points)[i].x, (*points)[i].y, (*points)[i].z); };
-    std::vector<uint32_t> order(points->size()), number(points->size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+    double most = 0;
+    for (const struct vec3 &p : points)
+        most = std::max({most, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    return most * 0x1p-38;
+}
+
+// Makes points that are as good as equal one; returns the new number of each. Points are kept in
+// cells of space: the few within reach of one are in its cell or next to it.
+std::vector<uint32_t> weld(std::vector<struct vec3> *points, double tolerance)
+{
+    constexpr double CELL = 32; // in tolerances: most points reach one cell only
+    std::vector<uint32_t> number;
     std::vector<struct vec3> kept;
-    for (size_t i = 0; i < order.size(); i++) {
-        if (i == 0 || key(order[i - 1]) != key(order[i]))
-            kept.push_back((*points)[order[i]]);
-        number[order[i]] = static_cast<uint32_t>(kept.size() - 1);
+    std::unordered_multimap<uint64_t, uint32_t> cells_of_kept;
+    auto cell = [&](double x, double y, double z) {
+        uint64_t hash = 0;
+        for (double c : {x, y, z})
+            hash = hash_mix(hash ^ static_cast<uint64_t>(
+                                       static_cast<int64_t>(std::floor(c / (CELL * tolerance)))));
+        return hash;
+    };
+    auto find = [&](const struct vec3 &p) {
+        std::set<uint64_t> reached;
+        for (int i = 0; i < 8 && tolerance > 0; i++)
+            reached.insert(cell(p.x + (i & 1 ? tolerance : -tolerance),
+                                p.y + (i & 2 ? tolerance : -tolerance),
+                                p.z + (i & 4 ? tolerance : -tolerance)));
+        for (uint64_t c : reached)
+            for (auto [k, end] = cells_of_kept.equal_range(c); k != end; ++k)
+                if (vec3_length(vec3_sub(kept[k->second], p)) <= tolerance)
+                    return k->second;
+        return NONE;
+    };
+    for (const struct vec3 &p : *points) {
+        uint32_t same = tolerance > 0 ? find(p) : kept.empty() ? NONE : 0;
+        if (same == NONE) {
+            same = static_cast<uint32_t>(kept.size());
+            kept.push_back(p);
+            if (tolerance > 0)
+                cells_of_kept.emplace(cell(p.x, p.y, p.z), same);
+        }
+        number.push_back(same);
     }
     *points = std::move(kept);
     return number;
@@ -64,9 +102,9 @@ inexact::Point_3 at(const struct vec3 &p)
 }
 
 // Turned so that the corners ascend; the weight says which way round they were.
-triangle normalised(std::array<uint32_t, 3> corner, unsigned operand, uint32_t source)
+triangle normalised(std::array<uint32_t, 3> corner, unsigned operand)
 {
-    triangle t = {corner, {}, source};
+    triangle t = {corner, {}};
     std::sort(t.corner.begin(), t.corner.end());
     int rises = (corner[0] < corner[1]) + (corner[1] < corner[2]) + (corner[2] < corner[0]);
     t.weight.of[operand] = rises == 2 ? 1 : -1;
@@ -76,14 +114,12 @@ triangle normalised(std::array<uint32_t, 3> corner, unsigned operand, uint32_t s
 // Triangles over the same corners become one, those that cancel out none.
 void merge_equal(std::vector<triangle> *all)
 {
-    std::sort(all->begin(), all->end(), [](const triangle &a, const triangle &b) {
-        return std::tie(a.corner, a.source) < std::tie(b.corner, b.source);
-    });
+    std::sort(all->begin(), all->end(),
+              [](const triangle &a, const triangle &b) { return a.corner < b.corner; });
     size_t kept = 0;
     for (size_t i = 0; i < all->size(); i++) {
         if (kept > 0 && (*all)[kept - 1].corner == (*all)[i].corner) {
             (*all)[kept - 1].weight += (*all)[i].weight;
-            (*all)[kept - 1].source = NONE;
         } else {
             (*all)[kept++] = (*all)[i];
         }
@@ -99,9 +135,9 @@ soup load(const struct mesh *a, const struct mesh *b)
     soup s;
     add_points(a, "the first", &s.points);
     add_points(b, "the second", &s.points);
-    std::vector<uint32_t> number = weld(&s.points);
+    std::vector<uint32_t> number = weld(&s.points, tolerance_for(s.points));
     const struct mesh *operands[2] = {a, b};
-    uint32_t first_point = 0, first_face = 0;
+    uint32_t first_point = 0;
     for (unsigned operand = 0; operand < 2; operand++) {
         const struct mesh *m = operands[operand];
         for (uint32_t t = 0; t < m->triangle_count; t++) {
@@ -110,10 +146,9 @@ soup load(const struct mesh *a, const struct mesh *b)
                 c[i] = number[first_point + m->triangles[t][i]];
             // What has no area bounds nothing; corners on edges of others are found all the same.
             if (!CGAL::collinear(at(s.points[c[0]]), at(s.points[c[1]]), at(s.points[c[2]])))
-                s.triangles.push_back(normalised(c, operand, first_face + m->faces[t]));
+                s.triangles.push_back(normalised(c, operand));
         }
         first_point += m->vertex_count;
-        first_face += m->face_count;
     }
     merge_equal(&s.triangles);
     return s;
@@ -157,7 +192,7 @@ class cutter
                 add_outline(&plane, triangles[order[j]]);
             for (; line != lines.end() && line->triangle == plane_of(order[i]); ++line)
                 plane.add(line->from, line->to, {});
-            plane.cut(end - i == 1 ? triangles[order[i]].source : NONE, &out);
+            plane.cut(&out);
         }
         return out;
     }
@@ -300,31 +335,51 @@ std::vector<triangle> select(enum boolean_op op, const point_table &points,
         bool behind = belongs(op, c.behind(t)), front = belongs(op, c.in_front(t));
         if (behind == front)
             continue;
-        out.push_back({all[t].corner, {{1, 0}}, all[t].source});
+        out.push_back({all[t].corner, {{1, 0}}});
         if (front)
             std::swap(out.back().corner[1], out.back().corner[2]);
     }
     return out;
 }
 
-void store(const point_table &points, const std::vector<triangle> &all, uint32_t face_count,
-           struct mesh *out)
+// Gives corners the numbers of rounded points, and drops triangles that are lines then.
+std::vector<struct vec3> round_corners(const point_table &points, std::vector<triangle> *all,
+                                       double *tolerance)
+{
+    std::unordered_map<uint32_t, uint32_t> numbers;
+    std::vector<struct vec3> rounded;
+    for (triangle &t : *all)
+        for (uint32_t &c : t.corner) {
+            auto [found, added] = numbers.emplace(c, static_cast<uint32_t>(rounded.size()));
+            if (added)
+                rounded.push_back(points.rounded(c));
+            c = found->second;
+        }
+    *tolerance = tolerance_for(rounded);
+    std::vector<uint32_t> welded = weld(&rounded, *tolerance);
+    for (triangle &t : *all)
+        for (uint32_t &c : t.corner)
+            c = welded[c];
+    all->erase(std::remove_if(all->begin(), all->end(),
+                              [](const triangle &t) {
+                                  const auto &c = t.corner;
+                                  return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
+                              }),
+               all->end());
+    return rounded;
+}
+
+void store(const point_table &points, const std::vector<triangle> &all,
+           const std::vector<uint32_t> &faces, uint32_t face_count, struct mesh *out)
 {
     struct mesh_builder b = {};
-    std::unordered_map<uint32_t, uint32_t> numbers;
+    for (uint32_t c = 0; c < points.size(); c++)
+        mesh_add_vertex(&b, points.rounded(c));
     while (b.mesh.face_count < face_count)
         mesh_add_face(&b);
-    for (const triangle &t : all) {
-        uint32_t corner[3];
-        for (unsigned i = 0; i < 3; i++) {
-            auto [found, added] = numbers.emplace(t.corner[i], b.mesh.vertex_count);
-            if (added)
-                mesh_add_vertex(&b, points.rounded(t.corner[i]));
-            corner[i] = found->second;
-        }
-        mesh_add_triangle(&b, corner[0], corner[1], corner[2], t.source);
-    }
-    mesh_weld(&b.mesh); // points closer to each other than numbers can tell
+    for (size_t t = 0; t < all.size(); t++)
+        mesh_add_triangle(&b, all[t].corner[0], all[t].corner[1], all[t].corner[2], faces[t]);
+    mesh_weld(&b.mesh); // drops what is not used
     *out = b.mesh;
 }
 
@@ -334,8 +389,12 @@ void evaluate(struct mesh *out, enum boolean_op op, const struct mesh *a, const 
     point_table points(std::move(s.points));
     std::vector<triangle> pieces = cutter(&points, s.triangles).cut();
     std::vector<triangle> shell = select(op, points, pieces);
-    flat_faces faces(points, shell);
-    store(points, faces.cut(), faces.count(), out);
+    double tolerance;
+    point_table corners(round_corners(points, &shell, &tolerance));
+    flat_faces faces(corners, shell, tolerance);
+    std::vector<uint32_t> numbers;
+    std::vector<triangle> result = faces.cut(&numbers);
+    store(corners, result, numbers, faces.number_count(), out);
 }
 } // namespace
 

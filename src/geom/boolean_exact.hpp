@@ -47,12 +47,10 @@ struct winding {
     }
 };
 
-// In front is the side that sees the corners counter-clockwise. `source` numbers the flat face of
-// an operand that it is a part of; NONE where several overlap.
+// In front is the side that sees the corners counter-clockwise.
 struct triangle {
     std::array<uint32_t, 3> corner;
     winding weight;
-    uint32_t source;
 };
 
 using edge = std::pair<uint32_t, uint32_t>;
@@ -82,18 +80,6 @@ class point_table
     size_t size() const
     {
         return points.size();
-    }
-    bool collinear(uint32_t a, uint32_t b, uint32_t c) const
-    {
-        if (is_given(a) && is_given(b) && is_given(c))
-            return CGAL::collinear(given_point(a), given_point(b), given_point(c));
-        return CGAL::collinear(points[a], points[b], points[c]);
-    }
-    bool coplanar(uint32_t a, uint32_t b, uint32_t c, uint32_t d) const
-    {
-        if (is_given(a) && is_given(b) && is_given(c) && is_given(d))
-            return CGAL::coplanar(given_point(a), given_point(b), given_point(c), given_point(d));
-        return CGAL::coplanar(points[a], points[b], points[c], points[d]);
     }
     // Numbers given to points made later are compared with the operands' points met so far.
     void meet(uint32_t number)

@@ -7,122 +7,191 @@
 
 namespace arrangement
 {
-constexpr double FLAT = 1e-9; // height over the plane of a face, by distance
-
-// Triangles of one plane, or of one face of an operand, that share an edge form one face. Points
-// inside of faces go, and those on straight edges between two faces.
+// Rounding moves corners, so that planes that should be one are two that cross somewhere, with
+// faces and gaps thinner than numbers can tell between them. If these stayed, each further boolean
+// would cut all of them along each other. Therefore triangles that share an edge and lie in one
+// plane within a tolerance form one face, on whichever side of them the solid is, and the face is
+// cut anew within its outline: what lies on top of each other with opposite sides is gone then.
+// Outlines stay as they are but for points on straight lines, so that the result stays closed.
 class flat_faces
 {
   public:
-    flat_faces(point_table &table, const std::vector<triangle> &all)
-        : points(table), triangles(all), faces(all.size()), corners(table.size())
+    flat_faces(point_table &table, const std::vector<triangle> &all, double distance)
+        : points(table), triangles(all), tolerance(distance), corners(table.size())
     {
-        join_neighbours();
-        number_faces();
-        for (const side &s : outline)
-            if (s.first_of_edge) {
-                meet(s.from, s.to);
-                meet(s.to, s.from);
+        sets same(triangles.size());
+        join_neighbours(&same);
+        std::vector<uint32_t> of_root(triangles.size(), NONE);
+        for (uint32_t t = 0; t < triangles.size(); t++) {
+            uint32_t &n = of_root[same.find(t)];
+            if (n == NONE) {
+                n = static_cast<uint32_t>(faces.size());
+                faces.emplace_back();
             }
-    }
-
-    uint32_t count() const
-    {
-        return face_count;
-    }
-
-    // The triangles with the numbers of their faces as sources.
-    std::vector<triangle> cut()
-    {
-        std::vector<uint8_t> stale(face_count);
-        std::vector<triangle> kept, renewed;
-        for (size_t t = 0; t < triangles.size(); t++)
-            for (uint32_t c : triangles[t].corner)
-                stale[number[t]] |= is_needless(c);
-        for (size_t t = 0; t < triangles.size(); t++)
-            if (!stale[number[t]])
-                kept.push_back({triangles[t].corner, triangles[t].weight, number[t]});
-        if (cut_anew(stale, &renewed)) {
-            kept.insert(kept.end(), renewed.begin(), renewed.end());
-            return kept;
+            faces[n].members.push_back(t);
         }
-        std::vector<triangle> all = triangles;
-        for (size_t t = 0; t < all.size(); t++)
-            all[t].source = number[t];
-        return all;
+        for (face &f : faces)
+            f.outline = outline_of(f);
+    }
+
+    // *numbers: of the flat face of each triangle returned.
+    std::vector<triangle> cut(std::vector<uint32_t> *numbers)
+    {
+        std::vector<triangle> out;
+        for (int round = ROUNDS; round-- > 0;) {
+            out.clear();
+            numbers->clear();
+            if (round == 0)
+                for (face &f : faces)
+                    keep(&f);
+            find_needless();
+            bool done = true;
+            for (uint32_t f = 0; f < faces.size(); f++) {
+                done &= add(&faces[f], &out);
+                number(f, out, numbers);
+            }
+            if (done)
+                break;
+        }
+        return out;
+    }
+    uint32_t number_count() const
+    {
+        return 2 * static_cast<uint32_t>(faces.size());
     }
 
   private:
-    struct side { // an edge of a triangle, in the direction in which the triangle has it
-        uint32_t from, to, triangle;
-        bool first_of_edge;
+    // A face that cannot be cut anew is kept with all its corners, which its neighbours must keep
+    // too, so that all is done again. After a few rounds everything is kept.
+    static constexpr int ROUNDS = 4;
+
+    struct side { // an edge of a triangle
+        edge ends;
+        uint32_t triangle;
+        bool operator<(const side &s) const
+        {
+            return std::tie(ends, triangle) < std::tie(s.ends, s.triangle);
+        }
     };
     struct corner_info {
-        uint32_t neighbours[2] = {NONE, NONE}; // along edges between faces
-        uint32_t edges = 0;                    // how many such
-        int8_t needless = -1;                  // not known yet
+        uint32_t neighbours[2] = {NONE, NONE}; // along outlines
+        uint32_t edges = 0;                    // of outlines that end here
+        bool kept = false, needless = false;
+    };
+    struct face {
+        std::vector<uint32_t> members;
+        // How often more each edge is run through upwards in numbers than downwards.
+        std::vector<std::pair<edge, int>> outline;
+        bool kept = false;
     };
 
-    void join_neighbours()
+    struct vec3 at(uint32_t corner) const
+    {
+        return points.rounded(corner);
+    }
+    struct vec3 between(uint32_t from, uint32_t to) const
+    {
+        return vec3_sub(at(to), at(from));
+    }
+    struct vec3 normal(const std::array<uint32_t, 3> &c) const // twice the area long
+    {
+        return vec3_cross(between(c[0], c[1]), between(c[0], c[2]));
+    }
+    edge longest(uint32_t t) const
+    {
+        const auto &c = triangles[t].corner;
+        edge best;
+        double most = -1;
+        for (unsigned i = 0; i < 3; i++) {
+            edge e = std::minmax(c[i], c[(i + 1) % 3]);
+            double length = vec3_length(between(e.first, e.second));
+            if (length > most) {
+                most = length;
+                best = e;
+            }
+        }
+        return best;
+    }
+    double height(uint32_t t) const // over the longest edge
+    {
+        edge e = longest(t);
+        return vec3_length(normal(triangles[t].corner)) / vec3_length(between(e.first, e.second));
+    }
+    // The smaller the triangle, the less is its plane to be relied upon far away from it.
+    bool is_in_plane(uint32_t corner, uint32_t t, double within) const
+    {
+        struct vec3 to = between(triangles[t].corner[0], corner);
+        double off = std::fabs(vec3_dot(vec3_normalized(normal(triangles[t].corner)), to));
+        return off <= within * (1 + vec3_length(to) / height(t));
+    }
+
+    void join_neighbours(sets *same) const
     {
         std::vector<side> all;
         for (uint32_t t = 0; t < triangles.size(); t++)
-            for (unsigned i = 0; i < 3; i++)
-                all.push_back({triangles[t].corner[i], triangles[t].corner[(i + 1) % 3], t, false});
-        auto key = [](const side &s) {
-            return std::make_pair(std::min(s.from, s.to), std::max(s.from, s.to));
-        };
-        std::sort(all.begin(), all.end(), [&](const side &a, const side &b) {
-            return std::make_tuple(key(a), a.triangle) < std::make_tuple(key(b), b.triangle);
-        });
-        std::vector<std::pair<size_t, size_t>> edges_kept;
+            for (unsigned i = 0; i < 3; i++) {
+                const auto &c = triangles[t].corner;
+                all.push_back({std::minmax(c[i], c[(i + 1) % 3]), t});
+            }
+        std::sort(all.begin(), all.end());
         for (size_t i = 0, end; i < all.size(); i = end) {
-            for (end = i + 1; end < all.size() && key(all[end]) == key(all[i]);)
+            for (end = i + 1; end < all.size() && all[end].ends == all[i].ends;)
                 end++;
-            if (end - i == 2 && is_flat(all[i].triangle, all[i + 1].triangle))
-                faces.join(all[i].triangle, all[i + 1].triangle);
-            else
-                edges_kept.emplace_back(i, end);
-        }
-        for (auto [i, end] : edges_kept) {
-            // Within a face that bends back on itself two triangles may meet that are not flat.
-            if (end - i == 2 && faces.find(all[i].triangle) == faces.find(all[i + 1].triangle))
-                continue;
-            all[i].first_of_edge = true;
-            outline.insert(outline.end(), all.begin() + static_cast<ptrdiff_t>(i),
-                           all.begin() + static_cast<ptrdiff_t>(end));
+            for (size_t a = i; a < end; a++)
+                for (size_t b = a + 1; b < end; b++)
+                    if (are_flat(all[a].triangle, all[b].triangle, all[i].ends))
+                        same->join(all[a].triangle, all[b].triangle);
         }
     }
-    bool is_flat(uint32_t s, uint32_t t) const
+    // A triangle that is all edge has no plane: it joins what its longest edge belongs to.
+    bool are_flat(uint32_t s, uint32_t t, const edge &common) const
     {
-        bool same = triangles[s].source == triangles[t].source && triangles[s].source != NONE;
-        const auto &c = triangles[s].corner;
-        for (uint32_t d : triangles[t].corner)
-            if (d != c[0] && d != c[1] && d != c[2])
-                return (same && is_nearly_flat(c, d)) || points.coplanar(c[0], c[1], c[2], d);
-        return true;
-    }
-    // Rounded corners leave the plane of their face a little.
-    bool is_nearly_flat(const std::array<uint32_t, 3> &c, uint32_t d) const
-    {
-        struct vec3 o = points.rounded(c[0]), to = vec3_sub(points.rounded(d), o);
-        struct vec3 normal =
-            vec3_cross(vec3_sub(points.rounded(c[1]), o), vec3_sub(points.rounded(c[2]), o));
-        return std::fabs(vec3_dot(normal, to)) <= FLAT * vec3_length(normal) * vec3_length(to);
+        if (height(s) < height(t))
+            std::swap(s, t);
+        if (height(t) <= tolerance)
+            return longest(t) == common;
+        const auto &c = triangles[t].corner;
+        return std::all_of(c.begin(), c.end(),
+                           [&](uint32_t corner) { return is_in_plane(corner, s, tolerance); });
     }
 
-    void number_faces()
+    std::vector<std::pair<edge, int>> outline_of(const face &f) const
     {
-        std::vector<uint32_t> of_root(triangles.size(), NONE);
-        number.resize(triangles.size());
-        for (uint32_t t = 0; t < triangles.size(); t++) {
-            uint32_t &n = of_root[faces.find(t)];
-            if (n == NONE)
-                n = face_count++;
-            number[t] = n;
+        std::vector<std::pair<edge, int>> sides, outline;
+        for (uint32_t t : f.members)
+            for (unsigned i = 0; i < 3; i++) {
+                uint32_t from = triangles[t].corner[i], to = triangles[t].corner[(i + 1) % 3];
+                sides.emplace_back(std::minmax(from, to), from < to ? 1 : -1);
+            }
+        std::sort(sides.begin(), sides.end());
+        for (const auto &[ends, turn] : sides) {
+            if (outline.empty() || outline.back().first != ends)
+                outline.emplace_back(ends, 0);
+            outline.back().second += turn;
         }
+        outline.erase(std::remove_if(outline.begin(), outline.end(),
+                                     [](const auto &s) { return s.second == 0; }),
+                      outline.end());
+        return outline;
     }
 
+    void find_needless()
+    {
+        std::vector<edge> all;
+        for (const face &f : faces)
+            for (const auto &s : f.outline)
+                all.push_back(s.first);
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        for (corner_info &c : corners)
+            c.edges = 0;
+        for (const edge &e : all) {
+            meet(e.first, e.second);
+            meet(e.second, e.first);
+        }
+        for (uint32_t c = 0; c < corners.size(); c++)
+            corners[c].needless = corners[c].edges == 2 && !corners[c].kept && is_straight(c);
+    }
     void meet(uint32_t corner, uint32_t neighbour)
     {
         corner_info &c = corners[corner];
@@ -130,61 +199,110 @@ class flat_faces
             c.neighbours[c.edges] = neighbour;
         c.edges++;
     }
-    bool is_needless(uint32_t corner)
+    bool is_straight(uint32_t corner) const
     {
-        corner_info &c = corners[corner];
-        if (c.needless < 0)
-            c.needless = c.edges == 0 || (c.edges == 2 && points.collinear(c.neighbours[0], corner,
-                                                                           c.neighbours[1]));
-        return c.needless;
+        struct vec3 a = between(corner, corners[corner].neighbours[0]);
+        struct vec3 b = between(corner, corners[corner].neighbours[1]);
+        return vec3_dot(a, b) < 0 &&
+               vec3_length(vec3_cross(a, b)) <= tolerance * vec3_length(vec3_sub(a, b));
     }
 
-    // False when a face is bent so that its outline seen along the axis crosses itself.
-    bool cut_anew(std::vector<uint8_t> stale, std::vector<triangle> *out)
+    void keep(face *f)
     {
-        std::sort(outline.begin(), outline.end(), [&](const side &a, const side &b) {
-            return std::tie(number[a.triangle], a.triangle) <
-                   std::tie(number[b.triangle], b.triangle);
+        f->kept = true;
+        for (uint32_t t : f->members)
+            for (uint32_t c : triangles[t].corner)
+                corners[c].kept = true;
+    }
+
+    // A disc without needless corners and without points inside can stay as it is.
+    bool is_good(const face &f) const
+    {
+        if (f.members.size() + 2 != f.outline.size())
+            return false;
+        return std::none_of(f.outline.begin(), f.outline.end(), [&](const auto &s) {
+            return corners[s.first.first].needless || corners[s.first.second].needless;
         });
-        for (size_t i = 0; i < outline.size();) {
-            uint32_t face = number[outline[i].triangle];
-            if (!stale[face]) {
-                i++;
-                continue;
-            }
-            overlay plane(points, triangles[outline[i].triangle].corner);
-            for (; i < outline.size() && number[outline[i].triangle] == face; i++)
-                if (!is_needless(outline[i].from))
-                    plane.add(outline[i].from, end_of(outline[i]), {{1, 0}});
-            size_t begin = out->size();
-            plane.cut(face, out);
-            if (begin == out->size() || plane.points_made() > 0)
-                return false;
-            for (; begin < out->size(); begin++)
-                if ((*out)[begin].weight.of[0] != 1)
-                    return false;
-            stale[face] = false;
-        }
-        return std::find(stale.begin(), stale.end(), true) == stale.end();
     }
-    uint32_t end_of(const side &s)
+
+    // False when the face had to be kept.
+    bool add(face *f, std::vector<triangle> *out)
     {
-        uint32_t last = s.from, at = s.to;
-        while (is_needless(at)) {
-            const corner_info &c = corners[at];
-            uint32_t next = c.neighbours[c.neighbours[0] == last];
-            last = at;
-            at = next;
+        size_t begin = out->size();
+        bool fails = false;
+        if (!f->kept && !is_good(*f)) {
+            if (cut_anew(*f, out))
+                return true;
+            out->resize(begin);
+            keep(f);
+            fails = true;
         }
-        return at;
+        for (uint32_t t : f->members)
+            out->push_back(triangles[t]);
+        return !fails;
     }
+
+    bool cut_anew(const face &f, std::vector<triangle> *out)
+    {
+        if (f.outline.empty())
+            return true;
+        uint32_t main = main_member(f);
+        overlay plane(points, triangles[main].corner);
+        for (const auto &[ends, turn] : f.outline) {
+            add_line(&plane, ends.first, ends.second, turn);
+            add_line(&plane, ends.second, ends.first, -turn);
+            if (!is_in_plane(ends.first, main, SPREAD * tolerance))
+                return false;
+        }
+        size_t begin = out->size();
+        plane.cut(out);
+        if (plane.points_made() > 0 || begin == out->size())
+            return false;
+        for (; begin < out->size(); begin++) {
+            triangle &t = (*out)[begin];
+            if (std::abs(t.weight.of[0]) != 1)
+                return false;
+            if (t.weight.of[0] < 0)
+                std::swap(t.corner[1], t.corner[2]);
+        }
+        return true;
+    }
+    uint32_t main_member(const face &f) const
+    {
+        return *std::max_element(f.members.begin(), f.members.end(),
+                                 [&](uint32_t s, uint32_t t) { return height(s) < height(t); });
+    }
+    // Once for each way along needless corners, from its end with the smaller number.
+    void add_line(overlay *plane, uint32_t from, uint32_t to, int turn) const
+    {
+        if (corners[from].needless)
+            return;
+        for (uint32_t last = from; corners[to].needless;) {
+            const corner_info &c = corners[to];
+            uint32_t next = c.neighbours[c.neighbours[0] == last];
+            last = to;
+            to = next;
+        }
+        if (from < to)
+            plane->add(from, to, {{turn, 0}});
+    }
+
+    // What looks the other way is another face.
+    void number(uint32_t f, const std::vector<triangle> &out, std::vector<uint32_t> *numbers) const
+    {
+        struct vec3 n = normal(triangles[main_member(faces[f])].corner);
+        while (numbers->size() < out.size()) {
+            const auto &c = out[numbers->size()].corner;
+            numbers->push_back(2 * f + (vec3_dot(n, normal(c)) < 0));
+        }
+    }
+
+    static constexpr double SPREAD = 16; // more than that, and neighbours have added up to a bend
 
     point_table &points;
     const std::vector<triangle> &triangles;
-    sets faces;
-    std::vector<uint32_t> number; // of the face of each triangle
-    uint32_t face_count = 0;
-    std::vector<side> outline; // all edges between faces
+    double tolerance;
+    std::vector<face> faces;
     std::vector<corner_info> corners;
 };
 } // namespace arrangement

@@ -47,7 +47,7 @@ class overlay
     }
 
     // Triangles with a weight that is not zero. Edges that cross make new points.
-    void cut(uint32_t source, std::vector<triangle> *out)
+    void cut(std::vector<triangle> *out)
     {
         insert_edges();
         if (plain.dimension() < 2)
@@ -57,8 +57,7 @@ class overlay
             if (!(f->info().weight == winding()))
                 out->push_back({{f->vertex(0)->info().number, f->vertex(1)->info().number,
                                  f->vertex(2)->info().number},
-                                f->info().weight,
-                                source});
+                                f->info().weight});
     }
 
     uint32_t points_made() const
