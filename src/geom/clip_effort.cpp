@@ -11,8 +11,8 @@ extern "C" {
 
 namespace clip
 {
-static constexpr double VISITS_FEW = 1 << 25;           // two seconds
-static constexpr double VISITS_MOST = 16.0 * (1 << 30); // a quarter of an hour
+static constexpr double VISITS_FEW = 1 << 25;          // two seconds
+static constexpr double VISITS_MOST = 4.0 * (1 << 30); // some minutes
 
 using side = std::pair<const IntPoint *, const IntPoint *>;
 

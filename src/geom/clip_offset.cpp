@@ -50,19 +50,23 @@ void check_arcs(const Paths &paths, double pieces)
         refuse("too many points");
 }
 
-// What Clipper makes one shape of in the end, but for the corners.
+// What Clipper makes one shape of in the end, but for the outer corners: sides move, and at inner
+// corners the path goes back to the corner in between.
 Paths moved_sides(const Paths &paths, double delta)
 {
     Paths result;
     for (const Path &path : paths) {
         Path sides;
-        for (size_t i = 0; i < path.size(); i++) {
-            const IntPoint &p = path[i], &q = path[i + 1 < path.size() ? i + 1 : 0];
-            double x = static_cast<double>(q.X - p.X), y = static_cast<double>(q.Y - p.Y);
+        for (size_t i = 0, n = path.size(); i < n; i++) {
+            const IntPoint &p = path[i], &q = path[(i + 1) % n];
+            IntPoint along = q - p;
+            double x = static_cast<double>(along.X), y = static_cast<double>(along.Y);
             double scale = delta / std::fmax(std::hypot(x, y), 1);
             IntPoint by(static_cast<cInt>(y * scale), static_cast<cInt>(-x * scale));
             sides.push_back(p + by);
             sides.push_back(q + by);
+            if (cross(along, path[(i + 2) % n] - q) * delta < 0)
+                sides.push_back(q);
         }
         result.push_back(std::move(sides));
     }
