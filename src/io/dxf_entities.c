@@ -5,14 +5,18 @@
 
 #include <string.h>
 
+static bool within_reach(struct vec2 p) // false for NaN, too
+{
+    return fabs(p.x) < DXF_REACH && fabs(p.y) < DXF_REACH;
+}
+
 static void add_line(struct drawing *d, struct vec2 a, struct vec2 b)
 {
     if (d->lines.line_count + d->block_line_count >= DXF_LINES_MAX) {
         d->full = true;
         return;
     }
-    double reach = fmax(fmax(fabs(a.x), fabs(a.y)), fmax(fabs(b.x), fabs(b.y)));
-    if (!(reach < DXF_REACH)) {
+    if (!within_reach(a) || !within_reach(b)) {
         d->too_far = true;
         return;
     }
@@ -58,7 +62,7 @@ static void draw_polyline(struct drawing *d)
 static uint32_t steps(const struct drawing *d, double radius, double turn)
 {
     double n = fmin(circle_fragments(radius, d->options->detail), CIRCLE_FRAGMENTS_MAX);
-    return (uint32_t)fmin(ceil(n * turn), DXF_LINES_MAX);
+    return (uint32_t)fmin(ceil(n * turn), CIRCLE_FRAGMENTS_MAX);
 }
 
 static void draw_turn(struct drawing *d, double start, double sweep, uint32_t n)
@@ -112,7 +116,8 @@ static void draw_ellipse(struct drawing *d)
 static void draw_insert(struct drawing *d)
 {
     const struct entity *e = &d->entity;
-    const struct block b = d->blocks[drawing_block(d, e->name)];
+    uint32_t number = drawing_block(d, e->name);
+    const struct block b = d->blocks[number];
     double scale = d->options->scale; // within a block too, as OpenSCAD does it
     double c = cos_degrees(e->c50), s = sin_degrees(e->c50);
     uint32_t at = b.first;
