@@ -1,8 +1,9 @@
 // clip.h - 2D booleans, offsets and sums, on the Clipper library with OpenSCAD's grid.
 //
 // Coordinates are cut off to multiples of 1/65536, as OpenSCAD does it, so that vertices come out
-// equal to OpenSCAD's. Results are clean. Coordinates beyond Clipper's range, or more points than
-// CLIP_POINTS_MOST at work, make a function return false with an empty result.
+// equal to OpenSCAD's. Results are clean. Coordinates beyond Clipper's range, more points or
+// crossings than CLIP_POINTS_MOST, and shapes that would keep Clipper busy for more than minutes
+// make a function return false with an empty result. All functions are thread-safe.
 #pragma once
 #include "geom/outline.h"
 #include "geom/primitives.h"
