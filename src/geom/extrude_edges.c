@@ -139,7 +139,6 @@ bool linear_cut_edges(struct outline *out, const struct outline *o,
     struct detail d = how->detail;
     bool by_number = how->segments_given || d.fn > 0;
     double number = how->segments_given ? how->segments : d.fn > 0 ? d.fn : ceil(360 / d.fa);
-    number = fmin(number, most + 1);
     struct edges e = {
         .lengths = mem_alloc(o->point_count * sizeof *e.lengths),
         .pieces = mem_alloc(o->point_count * sizeof *e.pieces),
@@ -151,7 +150,7 @@ bool linear_cut_edges(struct outline *out, const struct outline *o,
         e.count = o->ends[path] - begin;
         measure(&e, how, slices);
         if (by_number || e.count >= number || !cut_to_length(&e, d.fs, number))
-            cut_to_number(&e, number);
+            cut_to_number(&e, fmin(number, most + e.count + 1)); // enough to be refused
         add_path(out, &e);
         fits = out->point_count <= most;
     }

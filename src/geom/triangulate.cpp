@@ -101,6 +101,7 @@ template <class T> class cutter
     void weigh(const edge &e);
     int step(Vertex from, Vertex to) const;
     void wind();
+    void check() const;
     void take();
     void fill_moved();
     void fill_seam(const edge &e);
@@ -268,12 +269,37 @@ template <class T> void cutter<T>::wind()
     }
 }
 
+// Do the windings differ across each edge by what the outline says, and is no edge of it missing?
+// Where many edges cross by rounding it may be otherwise.
+template <class T> void cutter<T>::check() const
+{
+    size_t missing = 0;
+    for (const auto &[key, weight] : weights)
+        missing += weight != 0;
+    for (auto e = t.finite_edges_begin(); e != t.finite_edges_end(); ++e) {
+        const auto &[f, i] = *e;
+        int less = step(f->vertex(t.ccw(i)), f->vertex(t.cw(i)));
+        missing -= less != 0;
+        if (f->info().value - f->neighbor(i)->info().value != less)
+            throw std::domain_error("windings differ");
+    }
+    if (missing != 0)
+        throw std::domain_error("edges are missing");
+}
+
 template <class T> void cutter<T>::take()
 {
-    for (auto f = t.finite_faces_begin(); f != t.finite_faces_end(); ++f)
-        if (f->info().value != 0)
-            add(f->vertex(0)->info().point, f->vertex(1)->info().point, f->vertex(2)->info().point,
-                f->info().value);
+    for (auto f = t.finite_faces_begin(); f != t.finite_faces_end(); ++f) {
+        if (f->info().value == 0)
+            continue;
+        uint32_t corners[3];
+        for (int i = 0; i < 3; i++) {
+            corners[i] = f->vertex(i)->info().point;
+            if (corners[i] == NONE)
+                throw std::domain_error("a point of no edge");
+        }
+        add(corners[0], corners[1], corners[2], f->info().value);
+    }
 }
 
 // Where the grid has put points together.
@@ -306,6 +332,7 @@ template <class T> void cutter<T>::cut()
             fill_seam(e);
         }
     wind();
+    check();
     take();
     fill_moved();
 }
