@@ -42,20 +42,28 @@ static bool is_flat(const struct rings *r, uint32_t g, uint32_t h)
            (vec3_dot(n, m) > 0 && vec3_length(vec3_cross(n, m)) < FLAT);
 }
 
-// Two polygons become one across a side between them when that has no dent at its ends.
+// Two polygons become one across all sides between them that follow each other, when that has no
+// dent at their ends.
 static void merge(struct rings *r, uint32_t g)
 {
     uint32_t h = r->twins[g];
-    if (h == UINT32_MAX || h < g || !is_flat(r, g, h))
+    if (r->gone[g] || h == UINT32_MAX || h < g || !is_flat(r, g, h))
         return;
-    uint32_t g0 = r->before[g], g1 = r->next[g], h0 = r->before[h], h1 = r->next[h];
+    uint32_t first = g, last = g;
+    while (r->before[first] != last && r->twins[r->before[first]] == r->next[r->twins[first]])
+        first = r->before[first];
+    while (r->next[last] != first && r->twins[r->next[last]] == r->before[r->twins[last]])
+        last = r->next[last];
+    uint32_t g0 = r->before[first], g1 = r->next[last];
+    uint32_t h0 = r->before[r->twins[last]], h1 = r->next[r->twins[first]];
     if (turn(r, g0, h1) < -STRAIGHT || turn(r, h0, g1) < -STRAIGHT)
         return;
+    for (uint32_t i = first; i != g1; i = r->next[i])
+        r->gone[i] = r->gone[r->twins[i]] = true;
     r->next[g0] = h1;
     r->before[h1] = g0;
     r->next[h0] = g1;
     r->before[g1] = h0;
-    r->gone[g] = r->gone[h] = true;
 }
 
 static void find_normals(struct rings *r)
