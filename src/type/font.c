@@ -2,12 +2,16 @@
 #include "type/font.h"
 #include "base/mem.h"
 
-#include FT_TRUETYPE_IDS_H
 #include <fontconfig/fontconfig.h>
+#include <ft2build.h>
 #include <hb-ft.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include FT_FREETYPE_H
+#include FT_GLYPH_H
+#include FT_TRUETYPE_IDS_H
 
 enum { NAMES_KEPT = 64 };
 

@@ -1,12 +1,11 @@
 // font.h - the fonts of this machine: chosen by fontconfig, opened once, their glyphs kept.
 #pragma once
-#include <ft2build.h>
-#include FT_FREETYPE_H
-#include FT_GLYPH_H
-#include <hb.h>
-
 #include <stdbool.h>
 #include <stdint.h>
+
+struct FT_FaceRec_; // FreeType's FT_Face and FT_Glyph point to these
+struct FT_GlyphRec_;
+struct hb_font_t;
 
 // OpenSCAD sets all fonts at this size, 1562.5 points at 100 dots an inch, and scales the outlines:
 // these are so many units for a text of size 1.
@@ -16,10 +15,10 @@ enum { FONT_UNITS = 100000, FONT_DPI = 100 };
 struct font {
     char *file;
     int index; // of the face in its file
-    FT_Face face;
-    hb_font_t *shaper;
-    bool symbols;     // its characters below 0x100 stand at 0xF000 and above
-    FT_Glyph *glyphs; // by number, NULL until needed
+    struct FT_FaceRec_ *face;
+    struct hb_font_t *shaper;
+    bool symbols;                 // its characters below 0x100 stand at 0xF000 and above
+    struct FT_GlyphRec_ **glyphs; // by number, NULL until needed
 };
 
 // FreeType and HarfBuzz serve one thread at a time: the functions below, and everything done with a
@@ -32,4 +31,4 @@ void font_unlock(void);
 struct font *font_open(const char *name);
 
 // The hinted outline of a glyph; NULL when the font is broken there or has no outline for it.
-FT_Glyph font_glyph(struct font *f, uint32_t number);
+struct FT_GlyphRec_ *font_glyph(struct font *f, uint32_t number);

@@ -2,6 +2,10 @@
 #include "type/glyph.h"
 #include "type/font.h"
 
+#include <ft2build.h>
+
+#include FT_OUTLINE_H
+
 struct pen {
     struct outline *out;
     const struct glyph_place *place;

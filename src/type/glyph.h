@@ -2,17 +2,17 @@
 #pragma once
 #include "geom/outline.h"
 
-#include <ft2build.h>
-#include FT_OUTLINE_H
+struct FT_Outline_; // FreeType's FT_Outline
 
-// Appends the contours of a glyph in the direction the font gives them, moved by `offset` and then
-// by `advance`, in ems of OpenSCAD, times `size`; every curve as `pieces` straight lines.
 struct glyph_place {
-    struct vec2 offset, advance;
+    struct vec2 offset, advance; // in a text of size 1
     double size;
-    uint32_t pieces;
+    uint32_t pieces; // straight lines that make a curve
 };
-void glyph_append(struct outline *out, const FT_Outline *glyph, const struct glyph_place *place);
+
+// Appends the contours of a glyph in the direction that the font gives them.
+void glyph_append(struct outline *out, const struct FT_Outline_ *glyph,
+                  const struct glyph_place *place);
 
 // The most points that glyph_append makes of a glyph.
-uint64_t glyph_points(const FT_Outline *glyph, uint32_t pieces);
+uint64_t glyph_points(const struct FT_Outline_ *glyph, uint32_t pieces);

@@ -30,12 +30,12 @@ static struct anchors anchors_2021(const struct letters *row, double spacing)
     for (uint32_t i = 0; i < row->count; i++) {
         const struct letter *l = &row->items[i];
         if (row->vertical) {
-            width = fmax(width, (double)(l->box.xMax - l->box.xMin) * UNIT_2021);
+            width = fmax(width, (l->high.x - l->low.x) * UNIT_2021);
             up += l->advance.y * UNIT_2021 * spacing;
         } else {
             width += l->advance.x * UNIT_2021 * spacing;
-            up = fmax(up, (double)l->box.yMax * UNIT_2021);
-            down = fmax(down, (double)-l->box.yMin * UNIT_2021);
+            up = fmax(up, l->high.y * UNIT_2021);
+            down = fmax(down, -l->low.y * UNIT_2021);
         }
     }
     return (struct anchors){0, -width / 2, -width, -up, (down - up) / 2, down};
@@ -48,12 +48,10 @@ static struct anchors anchors_newer(const struct letters *row, double spacing)
 
     for (uint32_t i = 0; i < row->count; i++) {
         const struct letter *l = &row->items[i];
-        if (l->box.xMax > l->box.xMin && l->box.yMax > l->box.yMin) {
+        if (l->high.x > l->low.x && l->high.y > l->low.y) {
             double x = at.x + l->offset.x * UNIT_NEWER;
-            struct vec3 low = {x + (double)l->box.xMin * UNIT_NEWER,
-                               (double)l->box.yMin * UNIT_NEWER, 0};
-            struct vec3 high = {x + (double)l->box.xMax * UNIT_NEWER,
-                                (double)l->box.yMax * UNIT_NEWER, 0};
+            struct vec3 low = {x + l->low.x * UNIT_NEWER, l->low.y * UNIT_NEWER, 0};
+            struct vec3 high = {x + l->high.x * UNIT_NEWER, l->high.y * UNIT_NEWER, 0};
             ink = box_of_point(box_of_point(ink, low), high);
         }
         at.x += l->advance.x * UNIT_NEWER * spacing;

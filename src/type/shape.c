@@ -2,7 +2,11 @@
 #include "type/shape.h"
 #include "base/mem.h"
 
+#include <ft2build.h>
+#include <hb.h>
 #include <stdlib.h>
+
+#include FT_GLYPH_H
 
 void letters_free(struct letters *row)
 {
@@ -73,13 +77,16 @@ void shape_line(struct letters *out, struct font *f, const struct text_line *lin
     out->items = mem_alloc(((size_t)count + 1) * sizeof *out->items);
     for (uint32_t i = 0; i < count; i++) {
         FT_Glyph glyph = font_glyph(f, infos[i].codepoint);
+        FT_BBox box;
         if (!glyph) {
             out->missing++;
             continue;
         }
         struct letter *l = &out->items[out->count++];
         l->outline = &((FT_OutlineGlyph)glyph)->outline;
-        FT_Glyph_Get_CBox(glyph, FT_GLYPH_BBOX_GRIDFIT, &l->box);
+        FT_Glyph_Get_CBox(glyph, FT_GLYPH_BBOX_GRIDFIT, &box);
+        l->low = (struct vec2){(double)box.xMin, (double)box.yMin};
+        l->high = (struct vec2){(double)box.xMax, (double)box.yMax};
         l->offset = (struct vec2){positions[i].x_offset, positions[i].y_offset};
         l->advance = (struct vec2){positions[i].x_advance, positions[i].y_advance};
     }

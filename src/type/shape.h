@@ -5,8 +5,8 @@
 
 // Lengths in 1/64 of a pixel of the font.
 struct letter {
-    const FT_Outline *outline;
-    FT_BBox box; // of the control points, rounded outward to whole pixels
+    const struct FT_Outline_ *outline;
+    struct vec2 low, high; // box of the control points, rounded outward to whole pixels
     struct vec2 offset, advance;
 };
 

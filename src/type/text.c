@@ -112,8 +112,10 @@ static bool unite(struct outline *out, struct piece *pieces, uint32_t count)
         outline_free(&united);
     }
     free(group);
-    if (!ok)
+    if (!ok) {
         outline_free(out);
+        out->clean = true;
+    }
     return ok;
 }
 
