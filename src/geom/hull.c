@@ -2,7 +2,7 @@
 #include "geom/hull.h"
 
 #include "base/mem.h"
-#include "geom/hull_plane.h"
+#include "geom/hull_parts.h"
 #include "geom/mesh.h"
 
 #include <libqhull_r/qhull_ra.h>

@@ -1,5 +1,5 @@
 // hull_plane.c - hulls in the plane, and of points that lie in one plane.
-#include "geom/hull_plane.h"
+#include "geom/hull_parts.h"
 
 #include "base/mem.h"
 #include "geom/mesh.h"

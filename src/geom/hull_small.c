@@ -1,6 +1,6 @@
 // hull_small.c - convex hulls of a handful of points.
 #include "base/mem.h"
-#include "geom/hull_plane.h"
+#include "geom/hull_parts.h"
 
 #include <stdlib.h>
 

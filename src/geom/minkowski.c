@@ -105,15 +105,17 @@ static void add_prisms(struct jobs *j, const struct body *a, const struct body *
 
 static void add_pair(struct jobs *j, const struct body *a, const struct body *b)
 {
-    if (a->convex && b->convex) {
+    uint64_t pairs = a->convex && b->convex ? (uint64_t)a->mesh.vertex_count * b->mesh.vertex_count
+                                            : (uint64_t)a->edge_count * b->piece_count +
+                                                  (uint64_t)b->edge_count * a->piece_count;
+    if (pairs > PAIRS_MOST) {
+        j->failed = true;
+    } else if (a->convex && b->convex) {
         add_job(j, (struct job){.kind = JOB_CONVEX, .a = a, .b = b});
     } else if (b->convex) {
         add_sweeps(j, a, b);
     } else if (a->convex) {
         add_sweeps(j, b, a);
-    } else if ((uint64_t)a->edge_count * b->piece_count + (uint64_t)b->edge_count * a->piece_count >
-               PAIRS_MOST) {
-        j->failed = true;
     } else {
         // Seen from B, p - A takes the place of p - B, which turns up to down.
         add_prisms(j, a, b, up);

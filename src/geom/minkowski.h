@@ -1,9 +1,9 @@
 // minkowski.h - the Minkowski sum of two solids as a union of simple ones.
 //
-// For solids A and B with boundaries dA and dB the sum is the union of A moved to one vertex of
-// each component of dB, B moved to one vertex of each component of dA, and the hulls of all pairs
-// of a triangle of dA and a triangle of dB; when B is convex, of A and the hulls of each triangle
-// of dA with B. Nothing is evaluated to one mesh: a renderer of unions takes it as it is.
+// Of two convex solids it is one convex part. Of a solid A and a convex B it is A moved to a corner
+// of B, where B has room within A, and the hulls of the sums of each flat face of A with B; of any
+// two solids, both moved to corners of the other one and prisms: sums of an edge of one and a face
+// of the other. Nothing is evaluated to one mesh: a renderer of unions takes it as it is.
 #pragma once
 #include "geom/solid.h"
 
@@ -17,8 +17,9 @@ struct minkowski_sum { // {0} is empty
     uint32_t count, room;
 };
 
-// Parts that lie inside of others, as far as that is cheap to see, are left out. False, with an
-// empty sum, when it would have more than `most` parts. `threads` as for parallel_for.
+// What can be told not to be needed is left out; solids in several pieces are taken piece by piece.
+// False, with an empty sum, when it would have more than `most` parts or when finding them would
+// take more than about 2^30 steps for two of the pieces. `threads` as for parallel_for.
 bool minkowski_parts(struct minkowski_sum *out, const struct solid *a, const struct solid *b,
                      uint32_t most, uint32_t threads);
 void minkowski_free(struct minkowski_sum *s); // leaves {0}

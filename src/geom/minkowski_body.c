@@ -201,11 +201,21 @@ static void finish(struct body *b, bool known_convex)
     measure(b);
 }
 
+static bool is_finite(const struct mesh *m)
+{
+    for (uint32_t v = 0; v < m->vertex_count; v++) {
+        struct vec3 p = m->vertices[v];
+        if (!isfinite(p.x) || !isfinite(p.y) || !isfinite(p.z))
+            return false;
+    }
+    return true;
+}
+
 void bodies_of_solid(struct bodies *out, const struct solid *s)
 {
     const struct mesh *m = &s->mesh;
     *out = (struct bodies){0};
-    if (!m->triangle_count)
+    if (!m->triangle_count || !is_finite(m))
         return;
     uint32_t *shell_of = mem_zalloc((size_t)m->triangle_count * sizeof *shell_of);
     uint32_t *twins = mem_alloc((size_t)m->triangle_count * 3 * sizeof *twins);

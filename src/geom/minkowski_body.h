@@ -34,6 +34,7 @@ struct bodies {
     uint32_t count, room;
 };
 
+// None of a solid with coordinates that are not finite.
 void bodies_of_solid(struct bodies *out, const struct solid *s);
 void bodies_free(struct bodies *b); // leaves {0}
 // Whether a moved copy of `inner` might lie inside of `outer`; true when in doubt.

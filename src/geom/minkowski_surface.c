@@ -54,6 +54,9 @@ static void merge(struct rings *r, uint32_t g)
         first = r->before[first];
     while (r->next[last] != first && r->twins[r->next[last]] == r->before[r->twins[last]])
         last = r->next[last];
+    // A polygon with all of its sides at the other one folds onto it: no face, a flaw of the mesh.
+    if (r->next[last] == first || r->next[r->twins[first]] == r->twins[last])
+        return;
     uint32_t g0 = r->before[first], g1 = r->next[last];
     uint32_t h0 = r->before[r->twins[last]], h1 = r->next[r->twins[first]];
     if (turn(r, g0, h1) < -STRAIGHT || turn(r, h0, g1) < -STRAIGHT)

@@ -281,6 +281,64 @@ static void random_cells_in_random_places(void **state)
     }
 }
 
+// ---------------------------------------------------------------- OpenSCAD's results
+
+// One random point in each cell of a grid: the volume within a part in a thousand or two.
+static void check_sum(const struct cells *cells, const struct solid *b, struct box bounds,
+                      double volume)
+{
+    enum { FINE = 32 };
+    struct solid a;
+    cells_solid(&a, cells);
+    struct parts p = take_parts(&a, b);
+    struct box found = parts_bounds(&p);
+    for (int i = 0; i < 8; i += 7)
+        assert_close(vec3_length(vec3_sub(box_corner(found, i), box_corner(bounds, i))), 0, 1e-5);
+    uint64_t random = 9;
+    struct vec3 size = vec3_scale(vec3_sub(bounds.max, bounds.min), 1.0 / FINE);
+    uint32_t inside = 0;
+    for (int i = 0; i < FINE * FINE * FINE; i++) {
+        struct vec3 o = {bounds.min.x + size.x * (i % FINE),
+                         bounds.min.y + size.y * (i / FINE % FINE),
+                         bounds.min.z + size.z * (i / FINE / FINE)};
+        struct box cell = {o, vec3_add(o, size)};
+        inside += parts_hold(&p, random_point(cell, &random));
+    }
+    assert_close(inside * size.x * size.y * size.z / volume, 1, 3e-3);
+    free_parts(&p);
+    solid_free(&a);
+}
+
+static void volumes_are_those_of_openscad(void **state)
+{
+    (void)state;
+    struct solid b;
+    struct mesh m;
+    // cube(3) without [1, 2] x [1, 2] x [1, 3], and sphere(1, $fn = 8)
+    struct cells cup = cells_from(CUP);
+    primitive_sphere(&m, 8);
+    solid_from_mesh(&b, &m, true, 0);
+    double low = -0.923879, high = 3.923879;
+    check_sum(&cup, &b, (struct box){{low, low, low}, {high, high, high}}, 104.32954);
+    solid_free(&b);
+    // cube([10, 10, 5]) without a quarter, and cylinder(r = 5, h = 5)
+    struct cells ell = cells_from(ELL);
+    ell.place = (struct affine){{{5, 0, 0, 0}, {0, 5, 0, 0}, {0, 0, 5, 0}}};
+    primitive_cylinder(&m, 16, 5, 5);
+    for (uint32_t v = 0; v < m.vertex_count; v++)
+        m.vertices[v].z *= 5;
+    solid_from_mesh(&b, &m, true, 0);
+    check_sum(&ell, &b, (struct box){{-5, -5, 0}, {15, 15, 10}}, 3456.70646);
+    solid_free(&b);
+    // Two concave ones, the second under a matrix.
+    struct cells turned = ell;
+    ell.place = AFFINE_IDENTITY;
+    turned.place = (struct affine){{{0, -0.5, 0.2, 0}, {0.5, 0.1, 0, 0}, {0, 0.3, 0.7, 0}}};
+    cells_solid(&b, &turned);
+    check_sum(&ell, &b, (struct box){{-1, 0, 0}, {2.2, 3.1, 2.3}}, 17.1904287);
+    solid_free(&b);
+}
+
 // ---------------------------------------------------------------- numbers of parts
 
 static void convex_solids_have_one_part(void **state)
@@ -334,13 +392,43 @@ static void few_parts_are_made(void **state)
     solid_free(&a);
 }
 
+static void flawed_meshes_do_no_harm(void **state)
+{
+    (void)state;
+    struct cells ell = cells_from(ELL);
+    uint64_t random = 4;
+    for (int round = 0; round < 300; round++) {
+        struct solid a, b;
+        cells_solid(&a, &ell);
+        cells_solid(&b, &ell);
+        const double odd[] = {NAN, INFINITY, 1e300, -1e300, 0, 1e-300};
+        for (int i = 0; i < 6; i++) { // corners elsewhere, faces and corners mistaken for others
+            struct mesh *m = &a.mesh;
+            uint32_t t = (uint32_t)(random_next(&random) % m->triangle_count);
+            uint32_t v = (uint32_t)(random_next(&random) % m->vertex_count);
+            m->faces[t] = (uint32_t)(random_next(&random) % m->face_count);
+            if (i % 2)
+                m->triangles[t][i / 2] = v;
+            if (round % 3 == 0 && i == 0)
+                m->vertices[v].x = odd[round / 3 % 6];
+        }
+        struct minkowski_sum s;
+        assert_true(minkowski_parts(&s, &a, &b, 100000, 1));
+        minkowski_free(&s);
+        solid_free(&a);
+        solid_free(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shapes_of_cells),
         cmocka_unit_test(random_cells_in_random_places),
+        cmocka_unit_test(volumes_are_those_of_openscad),
         cmocka_unit_test(convex_solids_have_one_part),
         cmocka_unit_test(few_parts_are_made),
+        cmocka_unit_test(flawed_meshes_do_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

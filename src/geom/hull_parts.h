@@ -1,4 +1,4 @@
-// hull_plane.h - what the kinds of hulls have in common.
+// hull_parts.h - what the kinds of hulls have in common.
 #pragma once
 #include "geom/hull.h"
 
