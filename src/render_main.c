@@ -1,11 +1,11 @@
-// render_main.c - hcsg-render: the picture of a model as a PNG file, without a window.
+// render_main.c - hcsg-render: the picture or the geometry of a model as a file, without a window.
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/mem.h"
 #include "base/options.h"
 #include "csg/csg.h"
 #include "io/write_png.h"
-#include "model/model.h"
+#include "model/export.h"
 #include "render/camera.h"
 #include "render/picture.h"
 #include "scad/openscad.h"
@@ -21,16 +21,22 @@ enum { SIDE_MOST = 32768, PIXELS_MOST = 1 << 26 };
 
 // The command line as it was given.
 static struct {
-    const char *output, *camera, *projection, *scheme, *device;
+    const char *output, *export_format, *camera, *projection, *scheme, *device;
     int size[2];
     bool viewall, autocenter, summary;
     uint32_t threads, megabytes;
     double epsilon;
+    struct option_list import_folders;
+    bool hard_warnings;
 } given = {.size = {512, 512}, .scheme = "Cornfield", .epsilon = -1, .megabytes = 256};
 
 static const struct option options[] = {
     {"output", 'o', OPTION_TEXT, "FILE", "write the picture there; - is standard output",
      &given.output, 0, 0},
+    {"export-format", 0, OPTION_TEXT, "png|stl|off|dxf",
+     "what to write, whatever the extension of FILE says: a picture, or\n"
+     "the vertices of a model that is one object without booleans",
+     &given.export_format, 0, 0},
     {"imgsize", 0, OPTION_SIZE, "W,H", "size of the picture in pixels (default 512,512)",
      given.size, 1, SIDE_MOST},
     {"camera", 0, OPTION_TEXT, "NUMBERS",
@@ -54,6 +60,11 @@ static const struct option options[] = {
      &given.epsilon, 0, 1e9},
     {"memory", 0, OPTION_COUNT, "MB", "memory to draw with, beside model and picture (default 256)",
      &given.megabytes, 1, 1 << 20},
+    {"import-dir", 0, OPTION_LIST, "DIR",
+     "look there for imported files that are not beside FILE;\nmay be given several times",
+     &given.import_folders, 0, 0},
+    {"hardwarnings", 0, OPTION_FLAG, NULL, "make no picture when there is a warning",
+     &given.hard_warnings, 0, 0},
     {"summary", 0, OPTION_FLAG, NULL, "print numbers about model and picture", &given.summary, 0,
      0},
 };
@@ -61,8 +72,8 @@ static const struct option options[] = {
 static const struct program program = {
     .name = "hcsg-render",
     .version = HCSG_VERSION,
-    .summary = "Draws an OpenSCAD model, exported as .csg, or a .scad through openscad, as a PNG "
-               "picture.",
+    .summary = "Draws an OpenSCAD model, a .csg or through openscad a .scad, as a PNG picture, or "
+               "writes the geometry of one object.",
     .operands = "FILE",
     .options = options,
     .option_count = array_count(options),
@@ -74,6 +85,8 @@ struct request {
     struct camera camera;
     bool viewall, autocenter;
     const struct scheme *scheme;
+    bool exports; // geometry, no picture
+    enum export_format format;
 };
 
 static bool check_size(struct error *err)
@@ -85,7 +98,7 @@ static bool check_size(struct error *err)
     return false;
 }
 
-static bool check_output(const char *path, struct error *err)
+static bool check_output(struct request *r, const char *path, struct error *err)
 {
     if (!path && !given.summary) {
         error_set(err, "no output; give -o FILE.png");
@@ -96,11 +109,15 @@ static bool check_output(const char *path, struct error *err)
         return false;
     }
     const char *extension = path ? file_extension(path) : "";
-    if (*extension && strcasecmp(extension, "png") != 0) {
-        error_set(err, "%s: only PNG pictures can be written, not .%s", path, extension);
-        return false;
-    }
-    return true;
+    const char *format = given.export_format ? given.export_format : extension;
+    r->exports = export_format_find(&r->format, format);
+    if (r->exports || strcasecmp(format, "png") == 0 || !(given.export_format || *format))
+        return true;
+    if (given.export_format)
+        error_set(err, "--export-format: expected png, stl, off or dxf, got '%s'", format);
+    else
+        error_set(err, "%s: only PNG, STL, OFF and DXF can be written, not .%s", path, extension);
+    return false;
 }
 
 static bool parse_request(struct request *out, int operands, char **argv, struct error *err)
@@ -127,7 +144,7 @@ static bool parse_request(struct request *out, int operands, char **argv, struct
     return out->scheme && check_size(err) &&
            (!given.camera || camera_parse(&out->camera, given.camera, err)) &&
            (!given.projection || camera_parse_projection(&out->camera, given.projection, err)) &&
-           check_output(given.output, err);
+           check_output(out, given.output, err);
 }
 
 static bool read_tree(struct csg_tree *out, const char *path, struct scad_result *scad,
@@ -223,15 +240,32 @@ static int fail(const struct error *err, int code)
     return code;
 }
 
+// Makes and writes what is asked for. *lap_start: when that began.
+static int produce(struct request *r, const struct model *m, struct render_stats *stats,
+                   struct timing *t, double *lap_start)
+{
+    int code = EXIT_FINE;
+    struct error err;
+    struct picture picture = {0};
+    if (!r->exports && !draw(&picture, r, m, stats, &err))
+        return fail(&err, EXIT_INPUT);
+    t->draw = lap(lap_start);
+    if (given.output &&
+        !(r->exports ? model_export(m, r->format, given.output, &err)
+                     : write_png(given.output, picture.rgb, picture.width, picture.height, &err)))
+        code = fail(&err, EXIT_PICTURE);
+    t->write = lap(lap_start);
+    picture_free(&picture);
+    return code;
+}
+
 static int run(struct request *r)
 {
     int code = EXIT_INPUT;
-    struct error err;
     struct messages messages = {0};
     struct csg_tree tree = {0};
     struct scad_result scad = {0};
     struct model model = {0};
-    struct picture picture = {0};
     struct render_stats stats = {0};
     struct timing t = {0};
     double start = clock_seconds();
@@ -245,28 +279,20 @@ static int run(struct request *r)
     struct solid_store *store = solid_store_new();
     struct model_options model_options = MODEL_DEFAULTS;
     model_options.epsilon = given.epsilon;
+    model_options.import_folders = given.import_folders.items;
+    model_options.import_folder_count = given.import_folders.count;
     model_build(&model, &tree, store, &model_options, &messages);
     solid_store_delete(store);
     t.build = lap(&start);
     messages_print(&messages, stderr);
-    if (!draw(&picture, r, &model, &stats, &err)) {
-        fail(&err, EXIT_INPUT);
+    if (given.hard_warnings && messages.warnings + messages.errors)
         goto done;
-    }
-    t.draw = lap(&start);
-    if (given.output &&
-        !write_png(given.output, picture.rgb, picture.width, picture.height, &err)) {
-        code = fail(&err, EXIT_PICTURE);
-        goto done;
-    }
-    t.write = lap(&start);
-    if (given.summary) {
+    code = produce(r, &model, &stats, &t, &start);
+    if (code == EXIT_FINE && given.summary) {
         bool taken = given.output && strcmp(given.output, "-") == 0;
         print_summary(taken ? stderr : stdout, r, &model, &messages, &stats, &t);
     }
-    code = EXIT_FINE;
 done:
-    picture_free(&picture);
     model_free(&model);
     csg_free(&tree);
     scad_result_free(&scad);

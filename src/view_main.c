@@ -16,6 +16,7 @@ static struct {
     int size[2];
     uint32_t threads, megabytes;
     double epsilon;
+    struct option_list import_folders;
     bool stats, no_watch;
 } given = {.size = {1024, 768}, .epsilon = -1, .megabytes = 256};
 
@@ -36,6 +37,9 @@ static const struct option options[] = {
     {"openscad", 0, OPTION_TEXT, "PROGRAM",
      "exports .scad files; if not given $OPENSCAD,\nor openscad on the PATH", &given.openscad, 0,
      0},
+    {"import-dir", 0, OPTION_LIST, "DIR",
+     "look there for imported files that are not beside\nFILE; may be given several times",
+     &given.import_folders, 0, 0},
     {"no-watch", 0, OPTION_FLAG, NULL, "load the file once, do not follow it", &given.no_watch, 0,
      0},
     {"stats", 0, OPTION_FLAG, NULL, "print the times of frames and loads", &given.stats, 0, 0},
@@ -76,6 +80,8 @@ static bool set_options(struct viewer_options *o, struct error *err)
                                  .scheme =
                                      scheme_find(given.scheme ? given.scheme : "Cornfield", err),
                                  .epsilon = given.epsilon,
+                                 .import_folders = given.import_folders.items,
+                                 .import_folder_count = given.import_folders.count,
                                  .threads = given.threads,
                                  .memory = (size_t)given.megabytes << 20,
                                  .width = given.size[0],

@@ -14,6 +14,8 @@
 struct build {
     struct uv_loop_s *loop;
     double epsilon;
+    const char *const *import_folders;
+    uint32_t import_folder_count;
     const struct scheme *scheme;
     void (*done)(void *context, struct build_task *task);
     void *context;
@@ -64,6 +66,8 @@ static void make(struct build *b, const struct csg_tree *tree)
     struct loaded *s = mem_zalloc(sizeof *s);
     struct model_options options = MODEL_DEFAULTS;
     options.epsilon = b->epsilon;
+    options.import_folders = b->import_folders;
+    options.import_folder_count = b->import_folder_count;
     options.cancelled = &b->cancelled;
     model_build(&s->model, tree, b->store, &options, &b->now.messages);
     if (atomic_load(&b->cancelled)) {
@@ -138,6 +142,8 @@ struct build *build_new(struct uv_loop_s *loop, const struct loader_options *opt
     struct build *b = mem_zalloc(sizeof *b);
     b->loop = loop;
     b->epsilon = options->epsilon;
+    b->import_folders = options->import_folders;
+    b->import_folder_count = options->import_folder_count;
     b->scheme = options->scheme;
     b->done = done;
     b->context = context;

@@ -29,7 +29,9 @@ void loaded_release(struct loaded *s); // NULL is fine
 struct loader_options {
     const char *path;
     const char *openscad; // NULL: found by scad_start
-    double epsilon;       // of struct model_options
+    double epsilon;       // of struct model_options, as the next two
+    const char *const *import_folders;
+    uint32_t import_folder_count;
     const struct scheme *scheme;
     bool watch;
     // Called from the loader's thread when there are news, and when the program was asked to end.

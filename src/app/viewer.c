@@ -262,6 +262,8 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
     struct loader_options loading = {.path = options->path,
                                      .openscad = options->openscad,
                                      .epsilon = options->epsilon,
+                                     .import_folders = options->import_folders,
+                                     .import_folder_count = options->import_folder_count,
                                      .scheme = options->scheme,
                                      .watch = options->watch,
                                      .woken = wake};

@@ -12,7 +12,9 @@ struct viewer_options {
     struct camera camera;
     bool fixed_camera; // camera as it is; else all of the first model is shown
     const struct scheme *scheme;
-    double epsilon; // negative: chosen by the model
+    double epsilon;                    // negative: chosen by the model
+    const char *const *import_folders; // of struct model_options
+    uint32_t import_folder_count;
     uint32_t threads;
     size_t memory; // of struct render_settings
     int width, height;

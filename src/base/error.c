@@ -88,6 +88,18 @@ void messages_source(struct messages *m, const char *line, size_t length, uint32
     m->items[m->count - 1].source = text;
 }
 
+void messages_append(struct messages *m, const struct messages *more)
+{
+    m->warnings += more->warnings;
+    m->errors += more->errors;
+    for (uint32_t i = 0; i < more->count && m->count < 2 * MESSAGES_KEPT; i++) {
+        const struct message *one = &more->items[i];
+        array_reserve(&m->items, &m->capacity, (size_t)m->count + 1);
+        m->items[m->count++] = (struct message){one->level, mem_strdup(one->text),
+                                                one->source ? mem_strdup(one->source) : NULL};
+    }
+}
+
 void messages_print(const struct messages *m, FILE *out)
 {
     for (uint32_t i = 0; i < m->count; i++) {

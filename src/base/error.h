@@ -38,6 +38,7 @@ struct messages {
 
 void messages_add(struct messages *m, enum message_level level, struct place place,
                   const char *format, ...) __attribute__((format(printf, 4, 5)));
+void messages_append(struct messages *m, const struct messages *more); // adds copies
 // Attaches a source excerpt to the newest message.
 void messages_source(struct messages *m, const char *line, size_t length, uint32_t column);
 void messages_print(const struct messages *m, FILE *out);

@@ -1,6 +1,7 @@
 // file.c - whole files in and out.
 #include "base/file.h"
 
+#include "base/hash.h"
 #include "base/mem.h"
 
 #include <errno.h>
@@ -148,6 +149,16 @@ bool file_write(const char *path, const void *data, size_t size, struct error *e
     if (!ok)
         error_set(err, "%s: %s", standard ? "standard output" : path, strerror(errno));
     return ok;
+}
+
+uint64_t file_stamp(const char *path)
+{
+    struct stat st;
+    if (stat(path, &st) != 0)
+        return 0;
+    const uint64_t parts[] = {(uint64_t)st.st_dev, (uint64_t)st.st_ino, (uint64_t)st.st_size,
+                              (uint64_t)st.st_mtim.tv_sec, (uint64_t)st.st_mtim.tv_nsec};
+    return hash_bytes(1, parts, sizeof parts);
 }
 
 char *file_folder(const char *path)

@@ -153,6 +153,17 @@ static bool store_size(const struct given *g, struct error *err)
     return true;
 }
 
+static bool store_item(const struct given *g, struct error *err)
+{
+    struct option_list *list = g->option->target;
+    if (list->count == OPTION_LIST_MOST) {
+        error_set(err, "%.*s: given more than %d times", shown(g), g->word, OPTION_LIST_MOST);
+        return false;
+    }
+    list->items[list->count++] = g->value;
+    return true;
+}
+
 static bool store(const struct given *g, struct error *err)
 {
     switch (g->option->kind) {
@@ -168,6 +179,8 @@ static bool store(const struct given *g, struct error *err)
         return true;
     case OPTION_SIZE:
         return store_size(g, err);
+    case OPTION_LIST:
+        return store_item(g, err);
     case OPTION_COUNT:
     case OPTION_NUMBER:
         break;

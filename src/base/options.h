@@ -8,6 +8,13 @@ enum option_kind {
     OPTION_COUNT,  // uint32_t: a whole number in [least, most]
     OPTION_NUMBER, // double: a finite number in [least, most]
     OPTION_SIZE,   // int[2]: "W,H", whole numbers in [least, most]
+    OPTION_LIST,   // struct option_list: may be given several times
+};
+
+enum { OPTION_LIST_MOST = 64 };
+struct option_list {
+    const char *items[OPTION_LIST_MOST]; // borrowed from argv
+    uint32_t count;
 };
 
 struct option {

@@ -48,6 +48,15 @@ struct affine {
 
 #define AFFINE_IDENTITY ((struct affine){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}})
 
+static inline bool affine_is_finite(const struct affine *a)
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            if (!isfinite(a->m[i][j]))
+                return false;
+    return true;
+}
+
 static inline struct vec3 affine_point(const struct affine *a, struct vec3 p)
 {
     const double(*m)[4] = a->m;

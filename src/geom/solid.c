@@ -18,6 +18,7 @@ void solid_free(struct solid *s)
 {
     mesh_free(&s->mesh);
     free(s->planes.nx); // all four arrays
+    outline_free(&s->outline);
     *s = (struct solid){0};
 }
 

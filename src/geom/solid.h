@@ -1,6 +1,6 @@
 // solid.h - one closed 3D shape in its own coordinates: what a leaf of the model places in space.
 #pragma once
-#include "base/vec.h"
+#include "geom/outline.h"
 
 #include <stdint.h>
 
@@ -29,6 +29,7 @@ struct solid {
     struct planes planes; // count 0 unless convex
     struct box bounds;    // of the vertices
     bool convex;
+    struct outline outline; // of a plate that shows a flat shape: that shape; else empty
     uint64_t hash; // of the content: equal solids have equal hashes
 };
 

@@ -10,6 +10,8 @@
 // subtracted object.
 enum { STANDS_SUBTRACTED = 1, STANDS_PALE = 2, STANDS_RENDERED = 4, STANDS_APART = 8 };
 
+#define CUTTING_PLATE 1.1 // thickness of a subtracted plate over that of others
+
 struct todo {
     uint32_t term;  // TERM_NONE: the operands are done, put the operation
     uint32_t count; // of operands
@@ -43,12 +45,15 @@ static void put_todo(struct emitter *e, struct todo t)
 static void put_leaf(struct emitter *e, uint32_t number, uint8_t stands)
 {
     struct leaf leaf = e->b->scene.leaves[number];
+    leaf.subtracted = stands & STANDS_PALE;
+    if (leaf.flat && (stands & STANDS_SUBTRACTED)) // as OpenSCAD does, to cut what is as thick
+        for (int i = 0; i < 3; i++)
+            leaf.to_world.m[i][2] *= CUTTING_PLATE;
     if (!leaf.solid || !affine_inverse(&leaf.to_world, &leaf.to_local)) {
         put_token(e, EXPR_UNION, 0);
         return;
     }
     leaf.mirrored = affine_determinant(&leaf.to_world) < 0;
-    leaf.subtracted = stands & STANDS_PALE;
     leaf.box = box_transformed(leaf.solid->bounds, &leaf.to_world);
     store_hold(e->b->store, leaf.solid);
 
@@ -134,6 +139,16 @@ static void emit_all(struct emitter *e, const uint32_t *terms, uint32_t term_cou
     free(e->tokens);
 }
 
+// The box of a flat shape is that of its outline, not of its plate.
+static struct box box_to_show(const struct leaf *leaf)
+{
+    if (!leaf->flat)
+        return leaf->box;
+    struct box box = leaf->solid->bounds;
+    box.min.z = box.max.z = 0;
+    return box_transformed(box, &leaf->to_world);
+}
+
 // Regions of interest, and the expression without the leaves that have none.
 static void restrict_leaves(struct body *body, const bool *intersected, bool wanted,
                             struct box *bounds)
@@ -149,7 +164,7 @@ static void restrict_leaves(struct body *body, const bool *intersected, bool wan
         keep[i] = !box_is_empty(body->roi[i]);
         drop |= stands && !keep[i];
         if (keep[i] && intersected[i] && stands)
-            *bounds = box_union(*bounds, body->leaves[i].box);
+            *bounds = box_union(*bounds, box_to_show(&body->leaves[i]));
     }
     if (wanted && drop) {
         struct expr all = body->expr;

@@ -1,6 +1,6 @@
 // model.c - what there is to draw: solids, placed leaves and expressions over them.
 #include "base/file.h"
-#include "model/builder.h"
+#include "model/evaluate.h"
 #include "model/sheet.h"
 
 #include <stdlib.h>
@@ -65,13 +65,26 @@ static void count_stats(struct model *m, const struct builder *b)
     m->stats.unsupported = b->unsupported;
 }
 
-static void move_imports(struct model *m, struct builder *b)
+// Nodes that have to be evaluated as one object are noted on a first walk, evaluated side by side,
+// and found ready by the second one.
+static void walk_tree(struct builder *b, struct messages *messages)
 {
-    m->import_count = b->import_count;
-    m->imports = mem_alloc(b->import_count * sizeof *m->imports);
-    for (uint32_t i = 0; i < b->import_count; i++)
-        m->imports[i] = b->imports[i].path;
-    free(b->imports);
+    struct messages first = {0};
+    b->messages = &first;
+    b->collecting = true;
+    builder_walk(b);
+    b->collecting = false;
+    b->messages = messages;
+    if (!b->job_count) {
+        messages_append(messages, &first);
+    } else {
+        scene_free(&b->scene);
+        evaluate_collected(b);
+        b->unsupported = 0;
+        b->warned.name = NULL;
+        builder_walk(b);
+    }
+    messages_free(&first);
 }
 
 void model_build(struct model *out, const struct csg_tree *tree, struct solid_store *store,
@@ -80,14 +93,13 @@ void model_build(struct model *out, const struct csg_tree *tree, struct solid_st
     const char *name = tree->file ? tree->file : "-";
     *out = (struct model){.bounds = BOX_EMPTY, .store = store, .file = mem_strdup(name)};
     struct builder b = {.tree = tree,
+                        .options = options,
                         .file = out->file,
                         .folder = file_folder(name),
-                        .store = store,
-                        .messages = messages,
-                        .cancelled = options->cancelled};
+                        .store = store};
     store_join(store);
     store_count_from(store);
-    builder_walk(&b);
+    walk_tree(&b, messages);
     thicken_sheets(&b.scene, options->epsilon);
 
     // Tables borrow from their bodies, so the array must not move once it is being filled.
@@ -99,9 +111,12 @@ void model_build(struct model *out, const struct csg_tree *tree, struct solid_st
     if (!builder_cancelled(&b))
         body_build(&out->bodies[0], BODY_MAIN, &b, options, &b.scene.root, 1, &out->bounds);
     count_stats(out, &b);
-    move_imports(out, &b);
+    out->imports = builder_take_imports(&b, &out->import_count);
 
-    store_sweep(store);
+    if (!builder_cancelled(&b)) {
+        store_forget(store);
+        store_sweep(store);
+    }
     scene_free(&b.scene);
     polygon_cutter_delete(b.cutter);
     free(b.folder);

@@ -15,6 +15,7 @@ struct leaf {
     struct affine to_local; // its inverse; leaves are never singular
     bool mirrored;          // determinant of to_world is negative
     float colour[4];        // a component below 0 is not set: the scheme's colour stands in
+    bool flat;              // the plate of a flat shape
     bool subtracted;        // drawn in the scheme's cut colour when it has none of its own: stands
                             // under an odd number of subtractions
     struct place place;     // of the node in the file
@@ -53,6 +54,9 @@ struct model {
 struct model_options {
     double epsilon;  // filter in mm across the faces; negative: the default for the model's extent
     bool share, roi; // value sharing and regions of interest; true unless the bench compares
+    // Where imported files are looked for that are not beside the .csg.
+    const char *const *import_folders;
+    uint32_t import_folder_count;
     // NULL, or once true the rest is skipped: what comes out can only be freed.
     const atomic_bool *cancelled;
 };

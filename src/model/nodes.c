@@ -10,48 +10,71 @@ static const struct parameters parameters_render = {{"convexity"}, 1};
 #define TRANSFORM(which, params)                                                                   \
     .kind = NODE_TRANSFORM, .operation = TERM_UNION, .parameters = &(params),                      \
     .transform = transform_##which
-#define SHAPE(which) .kind = NODE_SHAPE, .parameters = &parameters_##which, .shape = shape_##which
-#define UNSUPPORTED  .kind = NODE_UNSUPPORTED
+#define SHAPE(which)                                                                               \
+    .kind = NODE_SHAPE, .parameters = &parameters_##which, .shape = shape_##which,                 \
+    .gives = GEOMETRY_SOLID
+#define FLAT(which)                                                                                \
+    .kind = NODE_FLAT, .parameters = &parameters_##which, .flat = flat_##which,                    \
+    .gives = GEOMETRY_FLAT
+#define IMPORT .kind = NODE_IMPORT, .parameters = &parameters_import
+#define COMBINED(which)                                                                            \
+    .kind = NODE_COMBINED, .parameters = &parameters_##which, .combine = combine_##which
+#define UNSUPPORTED .kind = NODE_UNSUPPORTED
 
 // In the order of strcmp.
 static const struct node_type types[] = {
     {CSG_ASSIGN, .kind = NODE_ASSIGNMENT},
-    {"circle", UNSUPPORTED},
+    {"circle", FLAT(circle)},
     {"color", .kind = NODE_COLOUR, .operation = TERM_UNION, .parameters = &parameters_colour},
     {"cube", SHAPE(cube)},
     {"cylinder", SHAPE(cylinder)},
     {"difference", OPERATION(TERM_DIFFERENCE)},
-    {"dxf_linear_extrude", UNSUPPORTED},
-    {"dxf_rotate_extrude", UNSUPPORTED},
-    {"fill", UNSUPPORTED},
+    {"dxf_linear_extrude", COMBINED(linear_extrude), .gives = GEOMETRY_SOLID},
+    {"dxf_rotate_extrude", COMBINED(rotate_extrude), .gives = GEOMETRY_SOLID},
+    {"fill", COMBINED(fill), .gives = GEOMETRY_FLAT},
     {"group", OPERATION(TERM_UNION)},
-    {"hull", UNSUPPORTED},
-    {"import", SHAPE(import)},
-    {"import_dxf", UNSUPPORTED},
-    {"import_off", SHAPE(import)},
-    {"import_stl", SHAPE(import)},
+    {"hull", COMBINED(hull), .shows_marked = true},
+    {"import", IMPORT},
+    {"import_dxf", IMPORT},
+    {"import_off", IMPORT},
+    {"import_stl", IMPORT},
     {"intersection", OPERATION(TERM_INTERSECTION)},
-    {"linear_extrude", UNSUPPORTED},
-    {"minkowski", UNSUPPORTED},
+    {"linear_extrude", COMBINED(linear_extrude), .gives = GEOMETRY_SOLID},
+    {"minkowski", COMBINED(minkowski), .shows_marked = true},
     {"mirror", TRANSFORM(mirror, parameters_vector)},
     {"multmatrix", TRANSFORM(multmatrix, parameters_multmatrix)},
-    {"offset", UNSUPPORTED},
-    {"polygon", UNSUPPORTED},
+    {"offset", COMBINED(offset), .gives = GEOMETRY_FLAT},
+    {"polygon", FLAT(polygon)},
     {"polyhedron", SHAPE(polyhedron)},
-    {"projection", UNSUPPORTED},
+    {"projection", COMBINED(projection), .gives = GEOMETRY_FLAT},
     {"render", .kind = NODE_RENDER, .operation = TERM_UNION, .parameters = &parameters_render},
-    {"resize", UNSUPPORTED},
+    {"resize", COMBINED(resize), .shows_marked = true},
     {"roof", UNSUPPORTED},
     {"rotate", TRANSFORM(rotate, parameters_rotate)},
-    {"rotate_extrude", UNSUPPORTED},
+    {"rotate_extrude", COMBINED(rotate_extrude), .gives = GEOMETRY_SOLID},
     {"scale", TRANSFORM(scale, parameters_vector)},
     {"sphere", SHAPE(sphere)},
-    {"square", UNSUPPORTED},
-    {"surface", UNSUPPORTED},
-    {"text", UNSUPPORTED},
+    {"square", FLAT(square)},
+    {"surface", SHAPE(surface)},
+    {"text", FLAT(text)},
     {"translate", TRANSFORM(translate, parameters_vector)},
     {"union", OPERATION(TERM_UNION)},
 };
+
+void builder_warn_left_out(struct builder *b, const struct csg_node *n,
+                           const struct node_type *type)
+{
+    bool known = type->kind == NODE_UNSUPPORTED;
+    b->unsupported++;
+    if (n->name == b->warned.name && n->line == b->warned.line)
+        return;
+    b->warned.name = n->name;
+    b->warned.line = n->line;
+    if (known)
+        builder_warn(b, n, "%s() is not supported yet; left out", n->name);
+    else
+        builder_warn(b, n, "unknown object '%s'; left out", n->name);
+}
 
 static int compare(const void *name, const void *type)
 {

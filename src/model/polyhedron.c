@@ -14,6 +14,7 @@ struct face_list {
     uint32_t corner_count, corner_room, count, end_room;
 };
 
+// Points that are none are told when a face uses them, and become NaN until then.
 static bool read_points(struct builder *b, const struct args *args, struct mesh_builder *m)
 {
     const struct csg_value *points = args->values[0];
@@ -21,22 +22,13 @@ static bool read_points(struct builder *b, const struct args *args, struct mesh_
         builder_warn(b, args->node, "polyhedron() needs a vector of points; left out");
         return false;
     }
-    uint32_t bad = 0;
     for (uint32_t i = 0; i < points->count; i++) {
         struct csg_value hold;
         double p[3] = {0};
-        if (!value_numbers(value_item(points, i, &hold), p, 2, 3) || !isfinite(p[0]) ||
-            !isfinite(p[1]) || !isfinite(p[2])) {
-            if (++bad == 1)
-                builder_warn(
-                    b, args->node,
-                    "polyhedron() point %u is not 2 or 3 finite numbers; it is at the origin", i);
-            p[0] = p[1] = p[2] = 0;
-        }
+        if (!value_numbers(value_item(points, i, &hold), p, 2, 3))
+            p[0] = NAN;
         mesh_add_vertex(m, (struct vec3){p[0], p[1], p[2]});
     }
-    if (bad > 1)
-        builder_warn(b, args->node, "polyhedron() has %u such points", bad);
     return true;
 }
 
@@ -50,9 +42,27 @@ static void add_face(struct face_list *f, const uint32_t *corners, uint32_t coun
     f->ends[f->count++] = f->corner_count;
 }
 
-static bool read_faces(struct builder *b, const struct args *args, uint32_t point_count,
+// As OpenSCAD 2021.01 has it, the first face with a bad point is the end of the list.
+static bool points_are_good(struct builder *b, const struct args *args, const struct mesh *points,
+                            uint32_t face, const uint32_t *corners, uint32_t count)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        struct vec3 p = points->vertices[corners[k]];
+        if (isfinite(p.x) && isfinite(p.y) && isfinite(p.z))
+            continue;
+        messages_add(b->messages, MESSAGE_ERROR, builder_place(b, args->node),
+                     "polyhedron() point %u is not 2 or 3 finite numbers; the faces from %u on are "
+                     "left out",
+                     corners[k], face);
+        return false;
+    }
+    return true;
+}
+
+static bool read_faces(struct builder *b, const struct args *args, const struct mesh *points,
                        struct face_list *out)
 {
+    uint32_t point_count = points->vertex_count;
     const struct csg_value *faces = args->values[1];
     if (!value_is_vector(faces))
         faces = args->values[3];
@@ -77,6 +87,8 @@ static bool read_faces(struct builder *b, const struct args *args, uint32_t poin
                              "polyhedron() face %u: no point has the number of corner %u; skipped",
                              i, k);
         }
+        if (!points_are_good(b, args, points, i, corners, count))
+            break;
         if (count >= 3)
             add_face(out, corners, count);
         else if (++small == 1)
@@ -116,7 +128,7 @@ const struct solid *shape_polyhedron(struct builder *b, const struct args *args,
     const struct solid *solid = NULL;
     struct mesh_builder m = {0};
     struct face_list faces = {0};
-    if (read_points(b, args, &m) && read_faces(b, args, m.mesh.vertex_count, &faces)) {
+    if (read_points(b, args, &m) && read_faces(b, args, &m.mesh, &faces)) {
         uint64_t key = key_of(&m.mesh, &faces);
         solid = store_find(b->store, key);
         if (!solid)

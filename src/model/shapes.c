@@ -2,6 +2,7 @@
 // one.
 #include "base/hash.h"
 #include "model/nodes.h"
+#include "model/rounds.h"
 
 const struct parameters parameters_cube = {{"size", "center"}, 2};
 const struct parameters parameters_sphere = {{"r", "d"}, 1};
@@ -30,24 +31,6 @@ static bool drawable(struct builder *b, const struct args *args, double x, doubl
     return false;
 }
 
-// The number of corners around, with the limits that OpenSCAD sets and one of ours.
-static uint32_t corners_around(struct builder *b, const struct args *args, double r, uint32_t most)
-{
-    struct detail d = args->detail;
-    if (d.fa < 0.01 || d.fs < 0.01) {
-        builder_warn(b, args->node, "$fa or $fs below 0.01; 0.01 is taken");
-        d.fa = fmax(d.fa, 0.01);
-        d.fs = fmax(d.fs, 0.01);
-    }
-    uint32_t n = circle_fragments(r, d);
-    if (n > most) {
-        builder_warn(b, args->node, "%s() has too many corners around; %u are drawn",
-                     args->node->name, most);
-        n = most;
-    }
-    return n;
-}
-
 const struct solid *shape_cube(struct builder *b, const struct args *args, struct affine *out)
 {
     double s[3] = {1, 1, 1};
@@ -70,21 +53,6 @@ const struct solid *shape_cube(struct builder *b, const struct args *args, struc
     struct mesh m;
     primitive_cube(&m);
     return store_add(b->store, key, &m, true);
-}
-
-// The radius that two parameters give together: a diameter beats a radius.
-static bool radius_of(struct builder *b, const struct args *args, uint32_t radius,
-                      uint32_t diameter, double *out)
-{
-    double d;
-    bool has_radius = value_number(args->values[radius], out);
-    if (!value_number(args->values[diameter], &d))
-        return has_radius;
-    if (has_radius)
-        builder_warn(b, args->node, "%s() has a radius and a diameter; the diameter is taken",
-                     args->node->name);
-    *out = d / 2;
-    return true;
 }
 
 const struct solid *shape_sphere(struct builder *b, const struct args *args, struct affine *out)

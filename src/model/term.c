@@ -82,6 +82,30 @@ static uint32_t fold_union(struct scene *s, uint32_t left, uint32_t right)
     return left_marked ? right : left;
 }
 
+// The box of the leaves of a term.
+static struct box box_of(const struct scene *s, uint32_t term)
+{
+    uint32_t *todo = NULL, count = 0, room = 0;
+    struct box box = BOX_EMPTY;
+    array_reserve(&todo, &room, 1);
+    if (term < TERM_EMPTY)
+        todo[count++] = term;
+    while (count) {
+        const struct term *t = &s->terms[todo[--count]];
+        if (t->op == TERM_LEAF) {
+            const struct leaf *leaf = &s->leaves[t->left];
+            box = box_union(box, box_transformed(leaf->solid->bounds, &leaf->to_world));
+            continue;
+        }
+        array_reserve(&todo, &room, (size_t)count + 2);
+        todo[count++] = t->left;
+        if (t->op != TERM_DIFFERENCE)
+            todo[count++] = t->right;
+    }
+    free(todo);
+    return box;
+}
+
 uint32_t scene_fold(struct scene *s, enum term_op op, uint32_t left, uint32_t right)
 {
     if (left == TERM_NONE)
@@ -104,6 +128,10 @@ uint32_t scene_fold(struct scene *s, enum term_op op, uint32_t left, uint32_t ri
         return fold_union(s, left, right);
     uint32_t t = combine(s, op, left, right);
     bool all = op == TERM_DIFFERENCE ? left_marks : left_marks && right_marks;
+    // As in OpenSCAD, what is empty by its boxes alone has no mark: its operands show theirs.
+    if (all && op == TERM_INTERSECTION &&
+        box_is_empty(box_intersection(box_of(s, left), box_of(s, right))))
+        all = false;
     if (all) {
         scene_mark(s, t, CSG_HIGHLIGHT);
         return t;
@@ -118,6 +146,43 @@ void scene_finish(struct scene *s, uint32_t root)
     bool background = scene_marks(s, root) & CSG_BACKGROUND;
     scene_show_apart(s, root);
     s->root = background || root == TERM_NONE ? TERM_EMPTY : root;
+}
+
+// A term's copy comes after those of its operands, so the copies are made on the way back up.
+uint32_t scene_add(struct scene *s, const struct scene *from, uint32_t term)
+{
+    struct step {
+        uint32_t term;
+        bool operands_done;
+    } *steps = NULL;
+    uint32_t *copies = NULL; // of the operands that are done
+    uint32_t step_count = 0, step_room = 0, copy_count = 0, copy_room = 0;
+    if (term >= TERM_EMPTY)
+        return term;
+    array_reserve(&steps, &step_room, 1);
+    steps[step_count++] = (struct step){term, false};
+    while (step_count) {
+        struct step now = steps[--step_count];
+        struct term t = from->terms[now.term];
+        t.marks = 0;
+        array_reserve(&copies, &copy_room, (size_t)copy_count + 1);
+        if (t.op == TERM_LEAF) {
+            copies[copy_count++] = scene_leaf(s, &from->leaves[t.left]);
+        } else if (now.operands_done) {
+            t.right = copies[--copy_count];
+            t.left = copies[--copy_count];
+            copies[copy_count++] = add_term(s, t);
+        } else {
+            array_reserve(&steps, &step_room, (size_t)step_count + 3);
+            steps[step_count++] = (struct step){now.term, true};
+            steps[step_count++] = (struct step){t.right, false};
+            steps[step_count++] = (struct step){t.left, false};
+        }
+    }
+    uint32_t copy = copies[0];
+    free(steps);
+    free(copies);
+    return copy;
 }
 
 void scene_free(struct scene *s)

@@ -41,4 +41,7 @@ uint32_t scene_fold(struct scene *s, enum term_op op, uint32_t left, uint32_t ri
 void scene_finish(struct scene *s, uint32_t root);
 void scene_show_apart(struct scene *s, uint32_t term); // lists a marked term, takes its marks off
 
+// Copies a term of another scene, unmarked, with all below it. Returns the copy.
+uint32_t scene_add(struct scene *s, const struct scene *from, uint32_t term);
+
 void scene_free(struct scene *s); // leaves {0}

@@ -1,6 +1,7 @@
 // walk.c - from the tree of the file to placed shapes and operations between them.
 //
 // No recursion: files nest as deep as memory allows.
+#include "model/evaluate.h"
 #include "model/nodes.h"
 
 #include <stdlib.h>
@@ -19,6 +20,7 @@ struct frame {
     uint32_t term;                   // of the children so far
     uint32_t matrix, colour, detail; // newest entries of the stacks that hold for the children
     uint8_t operation, render;
+    bool aside; // only for what is marked below it, which is shown apart
 };
 
 struct walk {
@@ -36,10 +38,6 @@ struct walk {
         const char *name;
         const struct node_type *type;
     } cache[64];
-    struct { // of the newest warning about an unsupported node
-        const char *name;
-        uint32_t line;
-    } warned;
 };
 
 static const struct node_type *type_of(struct walk *w, const struct csg_node *n)
@@ -124,15 +122,6 @@ static void fold(struct walk *w, uint32_t term)
         f->term = scene_fold(&w->b->scene, f->operation, f->term, term);
 }
 
-static bool is_finite(const struct affine *a)
-{
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++)
-            if (!isfinite(a->m[i][j]))
-                return false;
-    return true;
-}
-
 static void mark(struct walk *w, const struct csg_node *n, uint32_t term)
 {
     scene_mark(&w->b->scene, term, n->modifiers & (CSG_BACKGROUND | CSG_HIGHLIGHT));
@@ -186,7 +175,7 @@ static void visit_parent(struct walk *w, const struct csg_node *n, const struct 
             push_matrix(w, &f, &m);
         }
     }
-    if (!is_finite(&w->matrices[f.matrix])) {
+    if (!affine_is_finite(&w->matrices[f.matrix])) {
         builder_warn(w->b, n, "the matrix of %s() is not finite; left out", n->name);
         fold(w, TERM_EMPTY);
         return;
@@ -198,14 +187,68 @@ static void visit_parent(struct walk *w, const struct csg_node *n, const struct 
     push_frame(w, f);
 }
 
-static void visit_unsupported(struct walk *w, const struct csg_node *n)
+// Is a node below this one marked % or #?
+static bool has_marked(const struct csg_node *root)
 {
-    w->b->unsupported++;
-    if (n->name != w->warned.name || n->line != w->warned.line)
-        builder_warn(w->b, n, "%s() is not supported yet; left out", n->name);
-    w->warned.name = n->name;
-    w->warned.line = n->line;
-    fold(w, TERM_EMPTY);
+    const struct csg_node **stack = NULL;
+    uint32_t count = 0, room = 0;
+    bool found = false;
+    for (const struct csg_node *n = root->child; !found && (n || count);) {
+        if (!n) {
+            n = stack[--count];
+            continue;
+        }
+        found = !(n->modifiers & CSG_DISABLE) && (n->modifiers & (CSG_BACKGROUND | CSG_HIGHLIGHT));
+        if (n->next) {
+            array_reserve(&stack, &room, (size_t)count + 1);
+            stack[count++] = n->next;
+        }
+        n = n->modifiers & CSG_DISABLE ? NULL : n->child;
+    }
+    free(stack);
+    return found;
+}
+
+// A flat shape is shown as its plate, an evaluated object as what it is made of.
+static void visit_geometry(struct walk *w, const struct csg_node *n, const struct node_type *type)
+{
+    const struct frame *f = &w->frames[w->frame_count - 1];
+    struct scene *s = &w->b->scene;
+    const struct geometry *g = evaluate_node(w->b, n, w->details[f->detail]);
+    uint32_t first = s->leaf_count, term = TERM_EMPTY;
+    if (g && g->kind == GEOMETRY_FLAT && g->plate)
+        term = scene_leaf(
+            s, &(struct leaf){.solid = g->plate, .to_world = AFFINE_IDENTITY, .flat = true});
+    if (g && g->kind == GEOMETRY_SOLID) {
+        term = scene_add(s, &g->scene, g->root);
+        scene_rendered(s, term);
+    }
+    for (uint32_t i = first; i < s->leaf_count; i++) {
+        struct leaf *leaf = &s->leaves[i];
+        leaf->to_world = affine_mul(&w->matrices[f->matrix], &leaf->to_world);
+        leaf->place = builder_place(w->b, n);
+        memcpy(leaf->colour, w->colours[f->colour].c, sizeof leaf->colour);
+    }
+    mark(w, n, term);
+    fold(w, term);
+    if (type->shows_marked && has_marked(n)) {
+        struct frame aside = *f;
+        aside.node = n;
+        aside.next = n->child;
+        aside.term = TERM_NONE;
+        aside.operation = TERM_UNION;
+        aside.aside = true;
+        push_frame(w, aside);
+    }
+}
+
+static void visit_import(struct walk *w, const struct csg_node *n)
+{
+    const struct node_type *type = import_type_of(n);
+    if (type->kind == NODE_FLAT)
+        visit_geometry(w, n, type);
+    else
+        visit_shape(w, n, type);
 }
 
 static void visit(struct walk *w, const struct csg_node *n)
@@ -217,17 +260,30 @@ static void visit(struct walk *w, const struct csg_node *n)
     case NODE_OPERATION:
     case NODE_TRANSFORM:
     case NODE_COLOUR:
-    case NODE_RENDER:
         visit_parent(w, n, type);
+        break;
+    case NODE_RENDER:
+        if (w->frames[w->frame_count - 1].render == RENDER_OUTSIDE && evaluates_flat(n))
+            visit_geometry(w, n, type);
+        else
+            visit_parent(w, n, type);
         break;
     case NODE_SHAPE:
         visit_shape(w, n, type);
         break;
-    case NODE_UNSUPPORTED:
-        visit_unsupported(w, n);
+    case NODE_FLAT:
+    case NODE_COMBINED:
+        visit_geometry(w, n, type);
         break;
-    case NODE_UNKNOWN:
-        builder_warn(w->b, n, "unknown object '%s'; left out", n->name);
+    case NODE_IMPORT:
+        visit_import(w, n);
+        break;
+    case NODE_UNSUPPORTED:
+        builder_warn_left_out(w->b, n, type);
+        fold(w, TERM_EMPTY);
+        break;
+    case NODE_UNKNOWN: // as if it were not there
+        builder_warn_left_out(w->b, n, type);
         break;
     case NODE_ASSIGNMENT:
         break;
@@ -238,6 +294,10 @@ static void leave(struct walk *w)
 {
     struct frame f = w->frames[--w->frame_count];
     uint32_t term = f.term == TERM_NONE ? TERM_EMPTY : f.term;
+    if (f.aside) {
+        scene_show_apart(&w->b->scene, term);
+        return;
+    }
     mark(w, f.node, term);
     if (f.render == RENDER_NODE)
         scene_rendered(&w->b->scene, term);
