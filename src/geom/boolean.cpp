@@ -6,11 +6,10 @@
 // corefinement of CGAL this bears faces that coincide, operands that touch or cross themselves (as
 // rounded results do), and results that are not manifold.
 #include "geom/boolean_cells.hpp"
+#include "geom/boolean_cutter.hpp"
 #include "geom/boolean_faces.hpp"
+#include "geom/boolean_planes.hpp"
 
-#include <CGAL/Box_intersection_d/Box_with_info_d.h>
-#include <CGAL/box_intersection_d.h>
-#include <CGAL/intersections.h>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -27,11 +26,11 @@ using namespace arrangement;
 
 namespace
 {
-// More pairs of triangles that cross would take minutes; solids have far fewer.
-constexpr size_t MOST_CONTACTS = 2000000;
+constexpr double FARTHEST = 1e50;
 
 struct soup {
     std::vector<struct vec3> points; // each once
+    double tolerance;
     std::vector<triangle> triangles; // each set of corners once
 };
 
@@ -39,8 +38,9 @@ void add_points(const struct mesh *m, const char *which, std::vector<struct vec3
 {
     for (uint32_t v = 0; v < m->vertex_count; v++) {
         const struct vec3 &p = m->vertices[v];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw std::runtime_error(std::string(which) + " operand has a corner that is no point");
+        for (double c : {p.x, p.y, p.z})
+            if (!(std::fabs(c) <= FARTHEST)) // also for NaN
+                throw std::runtime_error(std::string(which) + " operand has corners out of range");
         out->push_back(p);
     }
 }
@@ -52,7 +52,7 @@ double tolerance_for(const std::vector<struct vec3> &points)
     double most = 0;
     for (const struct vec3 &p : points)
         most = std::max({most, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    return most * 0x1p-38;
+    return std::max(most * 0x1p-38, 1e-100);
 }
 
 // Makes points that are as good as equal one; returns the new number of each. Points are kept in
@@ -72,7 +72,7 @@ std::vector<uint32_t> weld(std::vector<struct vec3> *points, double tolerance)
     };
     auto find = [&](const struct vec3 &p) {
         std::set<uint64_t> reached;
-        for (int i = 0; i < 8 && tolerance > 0; i++)
+        for (int i = 0; i < 8; i++)
             reached.insert(cell(p.x + (i & 1 ? tolerance : -tolerance),
                                 p.y + (i & 2 ? tolerance : -tolerance),
                                 p.z + (i & 4 ? tolerance : -tolerance)));
@@ -83,22 +83,16 @@ std::vector<uint32_t> weld(std::vector<struct vec3> *points, double tolerance)
         return NONE;
     };
     for (const struct vec3 &p : *points) {
-        uint32_t same = tolerance > 0 ? find(p) : kept.empty() ? NONE : 0;
+        uint32_t same = find(p);
         if (same == NONE) {
             same = static_cast<uint32_t>(kept.size());
             kept.push_back(p);
-            if (tolerance > 0)
-                cells_of_kept.emplace(cell(p.x, p.y, p.z), same);
+            cells_of_kept.emplace(cell(p.x, p.y, p.z), same);
         }
         number.push_back(same);
     }
     *points = std::move(kept);
     return number;
-}
-
-inexact::Point_3 at(const struct vec3 &p)
-{
-    return {p.x, p.y, p.z};
 }
 
 // Turned so that the corners ascend; the weight says which way round they were.
@@ -135,7 +129,8 @@ soup load(const struct mesh *a, const struct mesh *b)
     soup s;
     add_points(a, "the first", &s.points);
     add_points(b, "the second", &s.points);
-    std::vector<uint32_t> number = weld(&s.points, tolerance_for(s.points));
+    s.tolerance = tolerance_for(s.points);
+    std::vector<uint32_t> number = weld(&s.points, s.tolerance);
     const struct mesh *operands[2] = {a, b};
     uint32_t first_point = 0;
     for (unsigned operand = 0; operand < 2; operand++) {
@@ -144,8 +139,7 @@ soup load(const struct mesh *a, const struct mesh *b)
             std::array<uint32_t, 3> c;
             for (unsigned i = 0; i < 3; i++)
                 c[i] = number[first_point + m->triangles[t][i]];
-            // What has no area bounds nothing; corners on edges of others are found all the same.
-            if (!CGAL::collinear(at(s.points[c[0]]), at(s.points[c[1]]), at(s.points[c[2]])))
+            if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
                 s.triangles.push_back(normalised(c, operand));
         }
         first_point += m->vertex_count;
@@ -153,158 +147,6 @@ soup load(const struct mesh *a, const struct mesh *b)
     merge_equal(&s.triangles);
     return s;
 }
-
-// Cuts all triangles along each other.
-class cutter
-{
-  public:
-    cutter(point_table *table, const std::vector<triangle> &all)
-        : points(*table), triangles(all), planes(all.size()), touched(all.size())
-    {
-    }
-
-    std::vector<triangle> cut()
-    {
-        find_contacts();
-        for (auto [s, t] : contacts)
-            cross(s, t);
-        std::vector<triangle> out;
-        std::vector<uint32_t> order;
-        for (uint32_t t = 0; t < triangles.size(); t++) {
-            if (touched[t])
-                order.push_back(t);
-            else
-                out.push_back(triangles[t]);
-        }
-        auto plane_of = [&](uint32_t t) { return planes.find(t); };
-        std::sort(order.begin(), order.end(), [&](uint32_t s, uint32_t t) {
-            return std::make_pair(plane_of(s), s) < std::make_pair(plane_of(t), t);
-        });
-        for (cut_line &l : lines)
-            l.triangle = plane_of(l.triangle);
-        std::sort(lines.begin(), lines.end());
-        auto line = lines.begin();
-        for (size_t i = 0, end; i < order.size(); i = end) {
-            for (end = i + 1; end < order.size() && plane_of(order[end]) == plane_of(order[i]);)
-                end++;
-            overlay plane(points, triangles[order[i]].corner);
-            for (size_t j = i; j < end; j++)
-                add_outline(&plane, triangles[order[j]]);
-            for (; line != lines.end() && line->triangle == plane_of(order[i]); ++line)
-                plane.add(line->from, line->to, {});
-            plane.cut(&out);
-        }
-        return out;
-    }
-
-  private:
-    struct cut_line {
-        uint32_t triangle, from, to;
-        bool operator<(const cut_line &l) const
-        {
-            return std::tie(triangle, from, to) < std::tie(l.triangle, l.from, l.to);
-        }
-    };
-
-    static void add_outline(overlay *plane, const triangle &t)
-    {
-        for (unsigned i = 0; i < 3; i++)
-            plane->add(t.corner[i], t.corner[(i + 1) % 3], t.weight);
-    }
-
-    void find_contacts()
-    {
-        using box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, uint32_t>;
-        std::vector<box> boxes;
-        boxes.reserve(triangles.size());
-        for (uint32_t t = 0; t < triangles.size(); t++)
-            boxes.emplace_back(input(t).bbox(), t);
-        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const box &s, const box &t) {
-            if (!meets(s.info(), t.info()))
-                return;
-            if (contacts.size() == MOST_CONTACTS)
-                throw std::runtime_error("the operands cross in too many places");
-            contacts.emplace_back(std::minmax(s.info(), t.info()));
-        });
-        std::sort(contacts.begin(), contacts.end()); // for results that do not depend on the boxes
-    }
-
-    inexact::Triangle_3 input(uint32_t t) const
-    {
-        const auto &c = triangles[t].corner;
-        return {points.given_point(c[0]), points.given_point(c[1]), points.given_point(c[2])};
-    }
-
-    // Whether two triangles meet anywhere but in corners and edges that they share.
-    bool meets(uint32_t s, uint32_t t) const
-    {
-        std::array<uint32_t, 3> a = triangles[s].corner, b = triangles[t].corner;
-        unsigned shared = 0;
-        for (unsigned i = 0; i < 3; i++)
-            for (unsigned j = shared; j < 3; j++)
-                if (a[i] == b[j]) {
-                    std::swap(a[i], a[shared]);
-                    std::swap(b[j], b[shared]);
-                    shared++;
-                    break;
-                }
-        auto p = [&](uint32_t c) { return points.given_point(c); };
-        if (shared == 0)
-            return CGAL::do_intersect(input(s), input(t));
-        if (shared == 1) // from the shared corner they go on together to the far edge of one
-            return CGAL::do_intersect(input(s), inexact::Segment_3(p(b[1]), p(b[2]))) ||
-                   CGAL::do_intersect(input(t), inexact::Segment_3(p(a[1]), p(a[2])));
-        return CGAL::coplanar(p(a[0]), p(a[1]), p(a[2]), p(b[2])) &&
-               CGAL::coplanar_orientation(p(a[0]), p(a[1]), p(a[2]), p(b[2])) == CGAL::POSITIVE;
-    }
-
-    void touch(uint32_t t)
-    {
-        if (!touched[t])
-            for (uint32_t c : triangles[t].corner)
-                points.meet(c);
-        touched[t] = 1;
-    }
-
-    exact::Triangle_3 in_space(uint32_t t) const
-    {
-        const auto &c = triangles[t].corner;
-        return {points[c[0]], points[c[1]], points[c[2]]};
-    }
-
-    void cross(uint32_t s, uint32_t t)
-    {
-        touch(s);
-        touch(t);
-        auto common = CGAL::intersection(in_space(s), in_space(t));
-        if (!common)
-            return;
-        std::vector<exact::Point_3> ring;
-        if (const auto *p = boost::get<exact::Point_3>(&*common))
-            ring = {*p};
-        else if (const auto *l = boost::get<exact::Segment_3>(&*common))
-            ring = {l->source(), l->target()};
-        else if (const auto *f = boost::get<exact::Triangle_3>(&*common))
-            ring = {f->vertex(0), f->vertex(1), f->vertex(2)};
-        else
-            ring = boost::get<std::vector<exact::Point_3>>(*common);
-        if (ring.size() > 2) // where both cover the plane they must be cut alike
-            planes.join(s, t);
-        for (size_t i = 0; i < ring.size(); i++) {
-            uint32_t from = points.number_of(ring[i]);
-            uint32_t to = points.number_of(ring[(i + 1) % ring.size()]);
-            lines.push_back({s, from, to});
-            lines.push_back({t, from, to});
-        }
-    }
-
-    point_table &points;
-    const std::vector<triangle> &triangles;
-    sets planes; // of triangles that overlap in one plane
-    std::vector<uint8_t> touched;
-    std::vector<std::pair<uint32_t, uint32_t>> contacts;
-    std::vector<cut_line> lines;
-};
 
 bool belongs(enum boolean_op op, const winding &w)
 {
@@ -386,8 +228,10 @@ void store(const point_table &points, const std::vector<triangle> &all,
 void evaluate(struct mesh *out, enum boolean_op op, const struct mesh *a, const struct mesh *b)
 {
     soup s = load(a, b);
+    triangle_pairs pairs = near_pairs(s.points, s.triangles, s.tolerance);
     point_table points(std::move(s.points));
-    std::vector<triangle> pieces = cutter(&points, s.triangles).cut();
+    common_planes(&points, s.triangles, s.tolerance).align(pairs);
+    std::vector<triangle> pieces = cutter(&points, s.triangles).cut(pairs);
     std::vector<triangle> shell = select(op, points, pieces);
     double tolerance;
     point_table corners(round_corners(points, &shell, &tolerance));

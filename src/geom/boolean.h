@@ -11,8 +11,9 @@ extern "C" {
 
 enum boolean_op { BOOLEAN_UNION, BOOLEAN_INTERSECTION, BOOLEAN_DIFFERENCE };
 
-// Exact predicates throughout. An empty result is a result. False when an operand bounds no volume
-// even after repair; err then says which. Thread-safe.
+// Cut exactly, then rounded. Operands may touch and cross themselves, be inside out, or disagree on
+// where outside is; the result may touch itself along edges. An empty result is a result. False
+// when an operand is not closed; err then says which. Thread-safe.
 bool boolean_mesh(struct mesh *out, enum boolean_op op, const struct mesh *a, const struct mesh *b,
                   struct error *err);
 

@@ -59,7 +59,8 @@ using edge = std::pair<uint32_t, uint32_t>;
 class point_table
 {
   public:
-    explicit point_table(std::vector<struct vec3> operands) : given(std::move(operands))
+    explicit point_table(std::vector<struct vec3> operands)
+        : given(std::move(operands)), moved(given.size())
     {
         points.reserve(given.size());
         for (const struct vec3 &p : given)
@@ -69,9 +70,14 @@ class point_table
     {
         return points[number];
     }
-    bool is_given(uint32_t number) const
+    bool is_given(uint32_t number) const // in doubles, exactly
     {
-        return number < given.size();
+        return number < given.size() && !moved[number];
+    }
+    void move(uint32_t number, const exact::Point_3 &to)
+    {
+        points[number] = to;
+        moved[number] = 1;
     }
     inexact::Point_3 given_point(uint32_t number) const
     {
@@ -104,6 +110,7 @@ class point_table
 
   private:
     std::vector<struct vec3> given;
+    std::vector<uint8_t> moved; // of the given ones
     std::vector<exact::Point_3> points;
     std::map<exact::Point_3, uint32_t, exact::Less_xyz_3> numbers;
 };
