@@ -36,8 +36,8 @@ void check_reach(const Paths &paths, double reach)
         }
 }
 
-// Each corner becomes an arc: how many points will there be?
-void check_arcs(const Paths &paths, double pieces)
+// How many points arcs at all corners have, when a full circle has so many pieces.
+double arc_points(const Paths &paths, double pieces)
 {
     double points = 0;
     for (const Path &path : paths)
@@ -46,8 +46,7 @@ void check_arcs(const Paths &paths, double pieces)
             double in = std::atan2(b.Y - a.Y, b.X - a.X), out = std::atan2(c.Y - b.Y, c.X - b.X);
             points += 2 + pieces * std::fabs(std::remainder(out - in, 2 * M_PI)) / (2 * M_PI);
         }
-    if (points > CLIP_POINTS_MOST)
-        refuse("too many points");
+    return points;
 }
 
 // What Clipper makes one shape of in the end, but for the outer corners: sides move, and at inner
@@ -79,8 +78,8 @@ Paths offset(Paths paths, double distance, enum clip_join join, struct detail de
     double n = std::min(circle_fragments(std::fabs(distance), detail), most);
     double delta = distance * GRID;
     check_reach(paths, std::fabs(delta) * (join == CLIP_MITRE ? MITRE_LIMIT : 2));
-    if (join == CLIP_ROUND)
-        check_arcs(paths, n);
+    if (join == CLIP_ROUND && arc_points(paths, n) > CLIP_POINTS_MOST)
+        refuse("too many points");
     Paths moved = moved_sides(paths, delta);
     check_crossings(moved, {});
     bool sideways = better_sideways(moved, {});
@@ -111,7 +110,9 @@ bool clip_stroke(struct outline *out, const struct vec2 *line, uint32_t count, d
         Paths lines = {quantised(line, count, STROKE_GRID)}, stroke;
         double delta = width * (STROKE_GRID / 2);
         check_reach(lines, 2 * std::fabs(delta));
-        check_arcs(lines, M_PI / std::acos(1 - ARC_TOLERANCE / std::fmax(std::fabs(delta), 1)));
+        double pieces = M_PI / std::acos(1 - ARC_TOLERANCE / std::fmax(std::fabs(delta), 1));
+        if (!(pieces + arc_points(lines, pieces) <= CLIP_POINTS_MOST)) // a single point is a circle
+            refuse("too many points");
         check_crossings(lines, {});
         ClipperOffset offset(STROKE_MITRE_LIMIT, ARC_TOLERANCE);
         offset.AddPaths(lines, join_type(join), end_type(cap));

@@ -309,6 +309,8 @@ static void what_is_out_of_range_is_refused(void **state)
         outline_free(&one);
     }
     struct outline far = square(3e13, 3e13, 3e13), one = square(0, 0, 1), out;
+    const struct vec2 point = {1, 1}; // its round cap would have 10^9 corners
+    assert_false(clip_stroke(&out, &point, 1, 7e13, CLIP_CAP_ROUND, CLIP_ROUND));
     assert_true(clip_union(&out, (const struct outline *const[]){&far, &one}, 2));
     assert_int_equal(out.path_count, 2);
     outline_free(&out);
