@@ -34,15 +34,15 @@ struct rays dexels_rays(struct box box, int axis)
 {
     int u = (axis + 1) % 3, v = (axis + 2) % 3;
     struct vec3 size = vec3_sub(box.max, box.min);
-    double step_u = part(size, u) / (DEXELS_SIDE - 0.62871), margin = 1 + part(size, axis);
-    double step_v = part(size, v) / (DEXELS_SIDE - 0.61793);
-    struct vec3 origin = vec3_add(along(u, part(box.min, u) + 0.193817 * step_u),
-                                  along(v, part(box.min, v) + 0.187193 * step_v));
+    double step = fmax(part(size, u), part(size, v)) / (DEXELS_SIDE - 0.62871);
+    double margin = 1 + part(size, axis);
+    struct vec3 origin = vec3_add(along(u, part(box.min, u) + 0.193817 * step),
+                                  along(v, part(box.min, v) + 0.187193 * step));
     return (struct rays){.orthographic = true,
                          .origin = vec3_add(origin, along(axis, part(box.min, axis) - margin)),
                          .forward = along(axis, 1),
-                         .step_x = along(u, step_u),
-                         .step_y = along(v, step_v),
+                         .step_x = along(u, step),
+                         .step_y = along(v, step),
                          .width = DEXELS_SIDE,
                          .height = DEXELS_SIDE,
                          .near = 0,
@@ -168,7 +168,7 @@ static void sum_crossings(struct dexels *out, struct crossings *c, double epsilo
 void dexels_of_mesh(struct dexels *out, const struct mesh *m, const struct rays *rays,
                     double epsilon)
 {
-    double step_x = vec3_length(rays->step_x), step_y = vec3_length(rays->step_y);
+    double step = vec3_length(rays->step_x);
     struct crossings crossings = {0};
     dexels_init(out);
     for (uint32_t i = 0; i < m->triangle_count; i++) {
@@ -176,8 +176,8 @@ void dexels_of_mesh(struct dexels *out, const struct mesh *m, const struct rays 
         struct corner c[3];
         for (int k = 0; k < 3; k++) {
             p[k] = vec3_sub(m->vertices[m->triangles[i][k]], rays->origin);
-            c[k].x = vec3_dot(p[k], rays->step_x) / (step_x * step_x);
-            c[k].y = vec3_dot(p[k], rays->step_y) / (step_y * step_y);
+            c[k].x = vec3_dot(p[k], rays->step_x) / (step * step);
+            c[k].y = vec3_dot(p[k], rays->step_y) / (step * step);
             c[k].z = vec3_dot(p[k], rays->forward) - rays->reference;
         }
         struct vec3 normal = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));

@@ -52,7 +52,7 @@ static bool compare_along(const struct model *m, const struct mesh *theirs, int 
     if (s.differing <= TOLERANCE * s.theirs &&
         fabs(s.ours_met - s.theirs_met) <= TOLERANCE * s.theirs_met)
         return true;
-    double cell = vec3_length(rays.step_x) * vec3_length(rays.step_y);
+    double cell = vec3_dot(rays.step_x, rays.step_x);
     printf("along %c: volume %.6g %.6g, differing %.3g %%, surface across %.6g %.6g; ", "xyz"[axis],
            s.ours * cell, s.theirs * cell, 100 * s.differing / s.theirs, s.ours_met * cell,
            s.theirs_met * cell);
