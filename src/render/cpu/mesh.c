@@ -96,7 +96,7 @@ struct triangle_key { // key(x, y) = a + b x + c y from the centre of the tile
     double a, b, c;
     float low, high; // of the vertices
     float steep;
-    uint32_t face;
+    uint32_t triangle;
 };
 
 // The key plane of a triangle with local normal n through point p.
@@ -160,7 +160,7 @@ static void scan(struct tile *t, const struct mesh_view *v, const struct grid_po
             m->crossings[m->crossing_count++] =
                 (struct mesh_crossing){.key = key,
                                        .steep = steep,
-                                       .face = k->face,
+                                       .triangle = k->triangle,
                                        .sign = (int16_t)-facing,
                                        .ray = (uint16_t)(y * BLOCK + x)};
         }
@@ -187,7 +187,7 @@ static void triangle(struct tile *t, const struct mesh_view *v, const struct lea
     struct vec3 p[3], q[4];
     double depth[3];
     int near_count = 0, n = 0;
-    struct triangle_key k = {.face = m->faces[i], .low = FLT_MAX, .high = -FLT_MAX};
+    struct triangle_key k = {.triangle = i, .low = FLT_MAX, .high = -FLT_MAX};
 
     for (int j = 0; j < 3; j++) {
         p[j] = m->vertices[m->triangles[i][j]];
@@ -273,7 +273,7 @@ static bool before(const struct mesh_crossing *a, const struct mesh_crossing *b)
 {
     if (a->key != b->key)
         return a->key < b->key;
-    return a->sign != b->sign ? a->sign < b->sign : a->face < b->face;
+    return a->sign != b->sign ? a->sign < b->sign : a->triangle < b->triangle;
 }
 
 // By ray, then along the ray.
@@ -302,7 +302,7 @@ static void make_intervals(struct tile *t, const struct mesh_crossing *c, uint32
 {
     struct mesh_pool *m = &t->mesh;
     float start = t->frame->start, end = t->frame->end;
-    struct mesh_interval now = {.enter = start, .enter_face = SURFACE_CAP, .enter_steep = 1};
+    struct mesh_interval now = {.enter = start, .enter_triangle = SURFACE_CAP, .enter_steep = 1};
     uint32_t begun = m->interval_count;
 
     for (uint32_t i = 0; i < n; i++) {
@@ -310,16 +310,16 @@ static void make_intervals(struct tile *t, const struct mesh_crossing *c, uint32
         winding += c[i].sign;
         if (!before_it) {
             now.enter = c[i].key;
-            now.enter_face = c[i].face;
+            now.enter_triangle = c[i].triangle;
             now.enter_steep = c[i].steep;
         } else if (!winding) {
             now.leave = c[i].key;
-            now.leave_face = c[i].face;
+            now.leave_triangle = c[i].triangle;
             now.leave_steep = c[i].steep;
             if (m->interval_count > begun &&
                 m->intervals[m->interval_count - 1].leave >= now.enter) {
                 now.enter = m->intervals[m->interval_count - 1].enter; // touching: one interval
-                now.enter_face = m->intervals[m->interval_count - 1].enter_face;
+                now.enter_triangle = m->intervals[m->interval_count - 1].enter_triangle;
                 now.enter_steep = m->intervals[m->interval_count - 1].enter_steep;
                 m->interval_count--;
             }

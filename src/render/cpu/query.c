@@ -53,6 +53,32 @@ static bool thin(struct query *q, int ray, float a, int32_t owner_a, float b, in
     return tile_thickness(q->t, a, b, steep) < q->t->frame->settings->epsilon;
 }
 
+static struct face_at face_of(const struct query *q, int32_t owner, float key)
+{
+    return (struct face_at){&q->t->leaves[owner >> 1], owner & 1, key};
+}
+
+// Of two surfaces within epsilon the expression shows that of `owner`. Is it the other one that is
+// seen, because both lie in one plane and it is the later one? Faces of different planes that meet
+// there do not hide each other: else the side of a solid would show in its neighbour's flat face.
+static bool covers(const struct query *q, int ray, int32_t other, float other_key, int32_t owner,
+                   float key)
+{
+    if (!later(q, other, owner))
+        return false;
+    return owner < 0 || other_key == key ||
+           tile_coplanar(q->t, ray, face_of(q, other, other_key), face_of(q, owner, key));
+}
+
+static void note_sliver(struct query *q, int ray, float end)
+{
+    if (!q->slivers)
+        for (int i = 0; i < BLOCK_PIXELS; i++)
+            q->sliver[i] = NEVER;
+    q->slivers = true;
+    q->sliver[ray] = fminf(q->sliver[ray], end);
+}
+
 // One ray moves to where it is next inside the leaf, with the filter.
 static void ray_in(struct query *q, int ray, float band, int32_t id, float *key, int32_t *owner)
 {
@@ -61,14 +87,17 @@ static void ray_in(struct query *q, int ray, float band, int32_t id, float *key,
         float e = q->lane[i].enter, x = q->lane[i].leave;
         if (!(x > c))
             continue;
-        if (thin(q, ray, e > c ? e : c, e > c ? id : *owner, x, id | 1, band))
+        if (thin(q, ray, e > c ? e : c, e > c ? id : *owner, x, id | 1, band)) {
+            if (e > c)
+                note_sliver(q, ray, x);
             continue;
+        }
         if (e > c) {
-            if (!(e - c <= band && *owner >= 0 && later(q, *owner, id) &&
+            if (!(e - c <= band && *owner >= 0 && covers(q, ray, *owner, c, id, e) &&
                   thin(q, ray, c, *owner, e, id, band)))
                 *owner = id;
             *key = e;
-        } else if (c - e <= band && *owner >= 0 && later(q, id, *owner) &&
+        } else if (c - e <= band && *owner >= 0 && covers(q, ray, id, e, *owner, c) &&
                    thin(q, ray, e, id, c, *owner, band)) {
             *owner = id;
         }
@@ -83,11 +112,12 @@ static void ray_out(struct query *q, int ray, float band, int32_t id, float *key
     for (uint32_t i = 0; i < q->lane_count; i++) {
         float e = q->lane[i].enter, x = q->lane[i].leave, c = *key;
         if (x > c && (e <= c || thin(q, ray, c, *owner, e, id, band))) {
-            bool same = x - c <= band && *owner >= 0 && later(q, *owner, id | 1) &&
+            bool same = x - c <= band && *owner >= 0 && covers(q, ray, *owner, c, id | 1, x) &&
                         thin(q, ray, c, *owner, x, id | 1, band);
             *key = x;
             *owner = same ? *owner : (id | 1);
-        } else if (x <= c && c - x <= band && *owner >= 0 && (*owner & 1) && later(q, id, *owner) &&
+        } else if (x <= c && c - x <= band && *owner >= 0 && (*owner & 1) &&
+                   covers(q, ray, id | 1, x, *owner, c) &&
                    thin(q, ray, x, id | 1, c, *owner, band)) {
             *owner = id | 1;
         }
@@ -213,7 +243,7 @@ static bool leaf_out(struct query *q, uint32_t index, float high, struct rays_at
     return changed;
 }
 
-// s = the nearer of s and other, ray by ray; of two within epsilon the later one owns the place.
+// s = the nearer of s and other, ray by ray; of two in one place one may cover the other.
 static void nearer(struct query *q, struct rays_at *s, const struct rays_at *other)
 {
     v8f epsilon = v8_set(q->t->frame->epsilon);
@@ -222,10 +252,12 @@ static void nearer(struct query *q, struct rays_at *s, const struct rays_at *oth
         v8i b_first = b < a;
         int tie = v8_bits((v8_abs(a - b) <= epsilon) & (b < v8_set(NEVER)));
         v8i owner = v8_selecti(b_first, other->owner[y], s->owner[y]);
-        for (int x = 0; tie; x++, tie >>= 1)
-            if (tie & 1)
-                owner[x] = later(q, other->owner[y][x], s->owner[y][x]) ? other->owner[y][x]
-                                                                        : s->owner[y][x];
+        for (; tie; tie &= tie - 1) {
+            int x = __builtin_ctz((unsigned)tie);
+            int32_t front = owner[x], back = b_first[x] ? s->owner[y][x] : other->owner[y][x];
+            if (covers(q, y * BLOCK + x, back, fmaxf(a[x], b[x]), front, fminf(a[x], b[x])))
+                owner[x] = back;
+        }
         s->key[y] = v8_min(b, a);
         s->owner[y] = owner;
     }
@@ -406,6 +438,30 @@ static void leaf_alone(struct query *q, uint32_t index, struct rays_at *out)
     }
 }
 
+// Where a leaf too thin to exist ends at the first surface, that surface may be no face at all but
+// where two leaves touch, seen past the edge of the first one: rays there are walked.
+static void walk_slivers(struct query *q, struct rays_at *out)
+{
+    struct tile *t = q->t;
+    float epsilon = t->frame->epsilon;
+    for (int i = 0; i < BLOCK_PIXELS; i++) {
+        float key = out->key[i / BLOCK][i % BLOCK];
+        int32_t owner = out->owner[i / BLOCK][i % BLOCK];
+        if (!(fabsf(key - q->sliver[i]) <= epsilon) || key >= NEVER || owner < 0)
+            continue;
+        struct rays_at walked;
+        t->limit = key + epsilon;
+        walk_one(t, i, &walked);
+        float walked_key = walked.key[i / BLOCK][i % BLOCK];
+        int32_t walked_owner = walked.owner[i / BLOCK][i % BLOCK];
+        if (walked_owner < 0 || walked_key >= key ||
+            !thin(q, i, walked_key, walked_owner, key, owner, NEVER))
+            continue;
+        out->key[i / BLOCK][i % BLOCK] = walked_key;
+        out->owner[i / BLOCK][i % BLOCK] = walked_owner;
+    }
+}
+
 void query_block(struct query *q, struct rays_at *out)
 {
     struct tile *t = q->t;
@@ -413,6 +469,7 @@ void query_block(struct query *q, struct rays_at *out)
     float high = NEVER;
     q->block++;
     q->found_count = 0;
+    q->slivers = false;
     for (int y = 0; y < BLOCK; y++) {
         out->key[y] = v8_set(NEVER);
         out->owner[y] = v8_seti(-1);
@@ -442,4 +499,6 @@ void query_block(struct query *q, struct rays_at *out)
         nearer(q, out, &s);
         high = latest(out);
     }
+    if (q->slivers)
+        walk_slivers(q, out);
 }

@@ -54,7 +54,9 @@ struct query {
     uint32_t lane_count;
     struct mesh_interval *copy; // of a mesh in the block
     uint32_t copy_capacity;
-    v8f limit[BLOCK]; // nothing beyond these keys matters
+    bool slivers;               // some ray of the block met a leaf too thin to exist
+    float sliver[BLOCK_PIXELS]; // and the first of these ended here
+    v8f limit[BLOCK];           // nothing beyond these keys matters
 };
 
 static inline struct extent extent_of(const struct query *q, uint32_t ref)

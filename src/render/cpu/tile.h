@@ -23,6 +23,7 @@
 #define tile_crossings   ISA_PASTE(tile_crossings, ISA)
 #define tile_planes      ISA_PASTE(tile_planes, ISA)
 #define tile_face        ISA_PASTE(tile_face, ISA)
+#define tile_coplanar    ISA_PASTE(tile_coplanar, ISA)
 #define tile_thickness   ISA_PASTE(tile_thickness, ISA)
 #define tile_mesh_block  ISA_PASTE(tile_mesh_block, ISA)
 
@@ -72,10 +73,11 @@ struct plane_list {
     uint32_t n;
 };
 
-// One interval of a mesh on a ray. Faces and steepness as for planes.
+// One interval of a mesh on a ray. SURFACE_CAP as a triangle: the start of the ray. Steepness as
+// for planes.
 struct mesh_interval {
     float enter, leave;
-    uint32_t enter_face, leave_face;
+    uint32_t enter_triangle, leave_triangle;
     float enter_steep, leave_steep;
 };
 
@@ -100,7 +102,7 @@ struct block_leaf {
 // A crossing of a ray of the block with a triangle.
 struct mesh_crossing {
     float key, steep;
-    uint32_t face;
+    uint32_t triangle;
     int16_t sign; // 1 enters, -1 leaves
     uint16_t ray;
 };
@@ -180,6 +182,15 @@ const uint32_t *tile_planes(const struct tile *t, struct block_leaf *b, bool lea
 // it. SURFACE_CAP when the key is the start of the ray.
 uint32_t tile_face(struct tile *t, struct tile_leaf *l, int i, bool leaving, float key,
                    float *steep);
+
+// Do the faces of two crossings of the ray of pixel i, that are known to be at one place, lie in
+// one plane? Yes when one of them is none: the start of the ray, the border of a region.
+struct face_at {
+    struct tile_leaf *leaf;
+    bool leaving;
+    float key;
+};
+bool tile_coplanar(struct tile *t, int i, struct face_at a, struct face_at b);
 
 // Thickness in mm across the faces of the interval between two keys on a ray of this tile.
 double tile_thickness(const struct tile *t, float from, float to, float steep);

@@ -16,6 +16,8 @@ struct walk_lists {
     uint32_t rest_capacity;
     bool *border; // per crossing of a cluster
     uint32_t border_capacity;
+    uint32_t *turns; // crossings of a cluster that turn the state
+    uint32_t turn_capacity;
 
     // evaluation of unknown combinations
     struct member *members;
@@ -50,6 +52,7 @@ size_t walk_bytes(const struct walk_lists *w)
 {
     return w->list.size * 2 * sizeof(crossing) + w->room.leaves * sizeof *w->inside +
            w->room.nodes + w->rest_capacity * sizeof(crossing) + w->border_capacity +
+           w->turn_capacity * sizeof *w->turns +
            (w->member_capacity + w->base_capacity) * sizeof *w->members +
            w->span_capacity * sizeof *w->spans;
 }
@@ -62,6 +65,7 @@ void walk_delete(struct walk_lists *w)
     free(w->list.spare);
     free(w->rest);
     free(w->border);
+    free(w->turns);
     free(w->members);
     free(w->base);
     free(w->inside);
@@ -288,25 +292,92 @@ static void find_borders(struct ray_walk *r, uint32_t from, uint32_t to)
     }
 }
 
-// Of the crossings at one place, the one whose surface shows there: the latest of the file of those
-// that matter, because the state would be another one without it, or with it alone.
+// Of the crossings [from, to) of a cluster that make the state `solid`, the one that does: taken
+// one by one they may turn it several times, for there are thin intervals between. The thinnest go
+// first, since some are only where two leaves touch. `to` when none turns it.
+static uint32_t turning_point(struct ray_walk *r, uint32_t from, uint32_t to, bool solid)
+{
+    struct walk_lists *w = r->t->lists;
+    uint32_t n = from, turns = 0;
+    bool now = !solid;
+    array_reserve(&w->rest, &w->rest_capacity, to);
+    array_reserve(&w->turns, &w->turn_capacity, to - from);
+    memcpy(w->rest, r->items, from * sizeof *w->rest);
+    for (uint32_t i = from; i < to; i++) {
+        if (w->border[i - from] && !(r->items[i] & 1))
+            w->rest[n++] = r->items[i];
+        else
+            step(r, r->items[i], true);
+    }
+    w->replayed = NULL; // the room of `rest` held other crossings before
+    for (uint32_t i = from; i < to; i++) {
+        if (w->border[i - from])
+            continue;
+        step(r, r->items[i], false);
+        w->rest[n++] = r->items[i];
+        if (is_solid(r, w->rest, n) != now) {
+            now = !now;
+            w->turns[turns++] = i;
+        }
+    }
+    w->replayed = NULL;
+    for (uint32_t i = from; i < to; i++)
+        if (w->border[i - from] && r->items[i] & 1)
+            step(r, r->items[i], false);
+    if (now != solid)
+        return to;
+    while (turns > 1) {
+        uint32_t least = 0;
+        float gap = FLT_MAX;
+        for (uint32_t k = 0; k + 1 < turns; k++) {
+            float d = crossing_key(r->items[w->turns[k + 1]]) - crossing_key(r->items[w->turns[k]]);
+            if (d <= gap) {
+                gap = d;
+                least = k;
+            }
+        }
+        turns -= 2;
+        memmove(w->turns + least, w->turns + least + 2, (turns - least) * sizeof *w->turns);
+    }
+    return w->turns[0];
+}
+
+static struct face_at face_of(const struct ray_walk *r, crossing c)
+{
+    uint32_t id = (uint32_t)c;
+    return (struct face_at){&r->t->leaves[id >> 1], id & 1, crossing_key(c)};
+}
+
+static uint32_t leaf_of(const struct ray_walk *r, crossing c)
+{
+    return r->t->leaves[(uint32_t)c >> 1].leaf;
+}
+
+// Of the crossings at one place, the one whose surface shows there: of those in one plane with the
+// one that turns the state, the latest of the file that matters, because the state would be another
+// one without it, or with it alone. A leaf too thin to show gives way to any of these.
 static crossing owner_of(struct ray_walk *r, uint32_t from, uint32_t to, bool solid)
 {
-    uint32_t best = from, best_leaf = 0;
-    bool found = false;
     if (to - from == 1)
         return r->items[from];
     find_borders(r, from, to);
+    uint32_t turning = turning_point(r, from, to, solid);
+    if (turning == to)
+        return r->items[from];
+    crossing turn = r->items[turning];
+    uint32_t best = turning;
+    bool weak = is_paired(r, from, to, turning);
     for (uint32_t i = from; i < to; i++) {
-        uint32_t leaf = r->t->leaves[(uint32_t)r->items[i] >> 1].leaf;
-        if ((found && leaf < best_leaf) || r->t->lists->border[i - from] ||
-            is_paired(r, from, to, i))
+        if (i == turning || (!weak && leaf_of(r, r->items[i]) <= leaf_of(r, r->items[best])) ||
+            r->t->lists->border[i - from] || is_paired(r, from, to, i))
+            continue;
+        if (crossing_key(r->items[i]) != crossing_key(turn) &&
+            !tile_coplanar(r->t, r->ray, face_of(r, r->items[i]), face_of(r, turn)))
             continue;
         if (solid_if(r, from, to, i, false) == solid && solid_if(r, from, to, i, true) != solid)
             continue;
-        found = true;
         best = i;
-        best_leaf = leaf;
+        weak = false;
     }
     return r->items[best];
 }
@@ -481,6 +552,15 @@ void walk_first(struct tile *t, uint32_t first_leaf, uint32_t count, struct rays
     int group = sum <= t->lists->list.size ? BLOCK_PIXELS : 1;
     for (int p = 0; p < BLOCK_PIXELS; p += group)
         walk_rays(t, leaves, p, p + group, counts, &bw, NULL);
+}
+
+void walk_one(struct tile *t, int ray, struct rays_at *out)
+{
+    uint32_t counts[BLOCK_PIXELS];
+    struct leaf_range leaves = {0, t->leaf_count};
+    struct block_walk bw = {.first_only = true, .out = out};
+    crossings_count(t, leaves, counts);
+    walk_rays(t, leaves, ray, ray + 1, counts, &bw, NULL);
 }
 
 void walk_block(struct tile *t,
