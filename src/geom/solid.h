@@ -30,7 +30,7 @@ struct solid {
     struct box bounds;    // of the vertices
     bool convex;
     struct outline outline; // of a plate that shows a flat shape: that shape; else empty
-    uint64_t hash; // of the content: equal solids have equal hashes
+    uint64_t hash;          // of the content: equal solids have equal hashes
 };
 
 void mesh_free(struct mesh *m);   // leaves {0}

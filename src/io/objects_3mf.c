@@ -55,15 +55,18 @@ static uint64_t key_of(uint64_t file, uint32_t id)
 static bool read_vertex(struct reader *r, struct xml *x, const char **attributes)
 {
     static const char *const names[] = {"x", "y", "z"};
-    double v[3];
+    float v[3]; // not a cast where they are used: gcc 12 drops two of three
     for (int i = 0; i < 3; i++) {
         const char *text = xml_attribute(attributes, names[i]);
-        if (!text || !xml_number(x, text, &v[i]) || !isfinite((float)v[i])) {
+        double number;
+        bool read = text && xml_number(x, text, &number);
+        v[i] = read ? (float)number : INFINITY;
+        if (!isfinite(v[i])) {
             xml_error(x, "expected finite numbers as coordinates of a vertex");
             return false;
         }
     }
-    mesh_add_vertex(&r->mesh, (struct vec3){(float)v[0], (float)v[1], (float)v[2]});
+    mesh_add_vertex(&r->mesh, (struct vec3){v[0], v[1], v[2]});
     return true;
 }
 

@@ -86,16 +86,17 @@ void combine_hull(struct operands *o, struct value *out)
 
 // ---------------------------------------------------------------- minkowski
 
+// Unlike solids, an empty flat shape makes the sum empty.
 static void sum_flat(struct operands *o, struct value *out)
 {
     bool done = true, first = true;
     for (uint32_t i = 0; i < o->count && done; i++) {
         struct outline sum = {0};
-        if (!o->values[i].outline.path_count)
+        if (o->values[i].kind != GEOMETRY_FLAT)
             continue;
         if (first)
             outline_copy(&sum, &o->values[i].outline);
-        else
+        else if (out->outline.path_count && o->values[i].outline.path_count)
             done = clip_minkowski(&sum, &out->outline, &o->values[i].outline);
         first = false;
         outline_free(&out->outline);

@@ -1,5 +1,6 @@
 // polyhedron.c - meshes written out in the file.
 #include "base/hash.h"
+#include "geom/orient.h"
 #include "model/nodes.h"
 
 #include <stdlib.h>
@@ -111,14 +112,19 @@ static uint64_t key_of(const struct mesh *points, const struct face_list *f)
     return hash_bytes(h, f->corners, f->corner_count * sizeof *f->corners);
 }
 
-static const struct solid *make_solid(struct builder *b, uint64_t key, struct mesh_builder *m,
-                                      const struct face_list *f)
+// OpenSCAD's preview draws faces whichever way they are written, so files with faces that are
+// turned the wrong way look right there: they are turned here.
+static const struct solid *make_solid(struct builder *b, const struct args *args, uint64_t key,
+                                      struct mesh_builder *m, const struct face_list *f)
 {
     if (!b->cutter)
         b->cutter = polygon_cutter_new();
     for (uint32_t i = 0, from = 0; i < f->count; from = f->ends[i++])
-        polygon_cut(b->cutter, m, f->corners + from, f->ends[i] - from);
+        if (!polygon_cut(b->cutter, m, f->corners + from, f->ends[i] - from) &&
+            polygon_failed(b->cutter))
+            builder_warn(b, args->node, "polyhedron() face %u cannot be cut; left out", i);
     mesh_weld(&m->mesh);
+    mesh_orient(&m->mesh);
     return store_add(b->store, key, &m->mesh, false);
 }
 
@@ -132,7 +138,7 @@ const struct solid *shape_polyhedron(struct builder *b, const struct args *args,
         uint64_t key = key_of(&m.mesh, &faces);
         solid = store_find(b->store, key);
         if (!solid)
-            solid = make_solid(b, key, &m, &faces);
+            solid = make_solid(b, args, key, &m, &faces);
         if (!solid->mesh.triangle_count)
             solid = NULL;
     }
