@@ -1,8 +1,13 @@
 // polygon.c - cutting arbitrary polygons in space into triangles, with GLU's tessellator.
 #include "geom/polygon.h"
 
+#include "base/hash.h"
+
 #include <GL/glu.h>
 #include <stdlib.h>
+
+// GLU takes some seconds for as many, and n sides may have n^2 / 2.
+enum { CROSSINGS_MOST = 200000 };
 
 struct polygon_cutter {
     GLUtesselator *tess;
@@ -196,9 +201,39 @@ static void cut_fan(struct polygon_cutter *c)
     }
 }
 
+// Positive where p lies to the left of side i, seen against the normal.
+static double left_of(const struct polygon_cutter *c, struct vec3 normal, uint32_t i, struct vec3 p)
+{
+    struct vec3 a = corner(c, i), b = corner(c, (i + 1) % c->corner_count);
+    return vec3_dot(normal, vec3_cross(vec3_sub(b, a), vec3_sub(p, a)));
+}
+
+static bool sides_cross(const struct polygon_cutter *c, struct vec3 normal, uint32_t i, uint32_t k)
+{
+    uint32_t n = c->corner_count;
+    return left_of(c, normal, i, corner(c, k)) * left_of(c, normal, i, corner(c, (k + 1) % n)) <
+               0 &&
+           left_of(c, normal, k, corner(c, i)) * left_of(c, normal, k, corner(c, (i + 1) % n)) < 0;
+}
+
+// By a sample: each side against one other.
+static bool crosses_too_often(const struct polygon_cutter *c, struct vec3 normal)
+{
+    double n = c->corner_count, pairs = n * n / 2;
+    if (pairs <= CROSSINGS_MOST)
+        return false;
+    uint64_t random = 0;
+    uint32_t hits = 0;
+    for (uint32_t i = 0; i < c->corner_count; i++) {
+        uint32_t other = (uint32_t)(random_next(&random) % c->corner_count);
+        hits += sides_cross(c, normal, i, other);
+    }
+    return pairs * hits / n > CROSSINGS_MOST;
+}
+
 static void cut_any(struct polygon_cutter *c, struct vec3 unit_normal)
 {
-    if (!c->tess) {
+    if (!c->tess || crosses_too_often(c, unit_normal)) {
         c->failed = true;
         return;
     }
@@ -245,4 +280,9 @@ bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_
         mesh_add_triangle(b, c->triangles[t][0], c->triangles[t][1], c->triangles[t][2], face);
     }
     return true;
+}
+
+bool polygon_failed(const struct polygon_cutter *c)
+{
+    return c->failed;
 }

@@ -10,6 +10,9 @@ void polygon_cutter_delete(struct polygon_cutter *c); // accepts NULL
 // Adds the polygon over vertices of `b` (counter-clockwise from outside) as triangles. It may be
 // concave, cross itself (odd winding counts as inside; crossings become new vertices) and be bent a
 // little. A flat polygon becomes one face, a bent one a face per triangle. Returns false, adding
-// nothing, when fewer than three different corners are left or it cannot be cut.
+// nothing, when fewer than three different corners are left or it cannot be cut, also for crossing
+// itself so often that it would take minutes.
 bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_t *corners,
                  uint32_t count);
+// Could the last one not be cut, though it has three different corners?
+bool polygon_failed(const struct polygon_cutter *c);

@@ -119,10 +119,13 @@ static const struct solid *make_solid(struct builder *b, const struct args *args
 {
     if (!b->cutter)
         b->cutter = polygon_cutter_new();
+    uint32_t failed = 0;
     for (uint32_t i = 0, from = 0; i < f->count; from = f->ends[i++])
-        if (!polygon_cut(b->cutter, m, f->corners + from, f->ends[i] - from) &&
-            polygon_failed(b->cutter))
-            builder_warn(b, args->node, "polyhedron() face %u cannot be cut; left out", i);
+        failed += !polygon_cut(b->cutter, m, f->corners + from, f->ends[i] - from) &&
+                  polygon_failed(b->cutter);
+    if (failed)
+        builder_warn(b, args->node,
+                     "polyhedron() faces that cross themselves too often: %u left out", failed);
     mesh_weld(&m->mesh);
     mesh_orient(&m->mesh);
     return store_add(b->store, key, &m->mesh, false);
