@@ -2,9 +2,10 @@
 #include "geom/orient.h"
 
 #include "base/hash.h"
-#include "base/mem.h"
+#include "geom/mesh.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 // The side of a triangle that starts at its corner `side % 3`; a side has one partner, the side of
 // the neighbour along the same edge.
@@ -141,13 +142,64 @@ static void orient_components(struct mesh *m, const struct sides *s)
     free(state);
 }
 
-void mesh_orient(struct mesh *m)
+static bool orient_closed(struct mesh *m)
 {
-    if (!m->triangle_count || m->triangle_count > UINT32_MAX / 3)
-        return;
     struct sides s = {.mesh = m, .count = 3 * m->triangle_count};
     s.partner = mem_alloc(s.count * sizeof *s.partner);
-    if (find_partners(&s))
+    bool closed = find_partners(&s);
+    if (closed)
         orient_components(m, &s);
     free(s.partner);
+    return closed;
+}
+
+// The corners of a triangle in ascending order, then its number.
+struct corners {
+    uint32_t sorted[3], number;
+};
+
+static int compare_corners(const void *a, const void *b)
+{
+    const uint32_t *p = a, *q = b;
+    for (int i = 0; i < 4; i++)
+        if (p[i] != q[i])
+            return p[i] < q[i] ? -1 : 1;
+    return 0;
+}
+
+// Makes triangles that repeat an earlier one points, which mesh_drop_unused drops. Returns their
+// number.
+static uint32_t collapse_repeated(struct mesh *m)
+{
+    uint32_t n = m->triangle_count, repeated = 0;
+    struct corners *list = mem_alloc(n * sizeof *list);
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t *t = m->triangles[i];
+        uint32_t low = t[0] < t[1] ? t[0] : t[1], high = t[0] < t[1] ? t[1] : t[0];
+        list[i] = (struct corners){{low < t[2] ? low : t[2],
+                                    t[2] < low    ? low
+                                    : t[2] > high ? high
+                                                  : t[2],
+                                    high > t[2] ? high : t[2]},
+                                   i};
+    }
+    qsort(list, n, sizeof *list, compare_corners);
+    for (uint32_t i = 1; i < n; i++)
+        if (!memcmp(list[i].sorted, list[i - 1].sorted, sizeof list[i].sorted)) {
+            uint32_t *t = m->triangles[list[i].number];
+            t[1] = t[2] = t[0];
+            repeated++;
+        }
+    free(list);
+    return repeated;
+}
+
+void mesh_orient(struct mesh *m)
+{
+    if (!m->triangle_count || m->triangle_count > UINT32_MAX / 3 || orient_closed(m))
+        return;
+    if (!collapse_repeated(m))
+        return;
+    mesh_drop_unused(m);
+    orient_closed(m);
 }

@@ -17,6 +17,7 @@ struct polygon_cutter {
     uint32_t (*triangles)[3]; // its result
     uint32_t triangle_count, triangle_room;
     uint32_t pending[3], pending_count;
+    bool crossed; // itself: there are new vertices
     bool failed;
 };
 
@@ -59,6 +60,7 @@ static void GLAPIENTRY on_combine(GLdouble at[3], void *vertices[4], GLfloat wei
     (void)vertices;
     (void)weight;
     struct polygon_cutter *c = user;
+    c->crossed = true;
     *out = number_in(mesh_add_vertex(c->mesh, (struct vec3){at[0], at[1], at[2]}));
 }
 
@@ -254,7 +256,7 @@ bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_
 {
     c->mesh = b;
     c->triangle_count = 0;
-    c->failed = false;
+    c->crossed = c->failed = false;
     collect_corners(c, corners, count);
     if (c->corner_count < 3)
         return false;
@@ -272,6 +274,10 @@ bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_
         return false;
     if (quad && !flat && c->triangle_count == 2)
         choose_diagonal(c, normal);
+    if (c->corner_count == 4 && !flat && c->crossed) { // a bend so strong that sides only seem to
+        c->triangle_count = 0;                         // cross: its neighbours know no new vertex
+        cut_fan(c);
+    }
 
     uint32_t face = 0;
     for (uint32_t t = 0; t < c->triangle_count; t++) {

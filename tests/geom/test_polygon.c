@@ -1,5 +1,7 @@
 // test_polygon.c - cutting polygons into triangles.
 #include "geom/polygon.h"
+
+#include "base/hash.h"
 #include "unit.h"
 
 // Cuts the polygon of all given points; the mesh holds the result.
@@ -138,6 +140,45 @@ static void nonsense_is_refused_or_harmless(void **state)
     }
 }
 
+// Its middle new corners would open the seams to its neighbours.
+static void strongly_bent_quads_keep_their_corners(void **state)
+{
+    (void)state;
+    const struct vec3 p[] = {{0.213931, -1.18909, 69.6324},
+                             {0.507199, -1.73168, 68.8016},
+                             {6.96718, -1.88303, 76.9407},
+                             {9.17023, -6.28686, 70.9731}};
+    struct mesh_builder b;
+    assert_true(cut(&b, p, 4));
+    assert_int_equal(b.mesh.triangle_count, 2);
+    mesh_weld(&b.mesh);
+    assert_int_equal(b.mesh.vertex_count, 4);
+    mesh_free(&b.mesh);
+}
+
+static void tangles_are_refused(void **state)
+{
+    (void)state;
+    enum { MANY = 3000 };
+    struct vec3 *p = mem_alloc(MANY * sizeof *p);
+    uint64_t seed = 1;
+    for (int i = 0; i < MANY; i++)
+        p[i] = (struct vec3){random_unit(&seed), random_unit(&seed), 1};
+    struct mesh_builder b;
+    assert_false(cut(&b, p, MANY));
+    assert_int_equal(b.mesh.triangle_count, 0);
+    mesh_free(&b.mesh);
+
+    for (int i = 0; i < MANY; i++) { // as many corners, but in order
+        double angle = 2 * M_PI * i / MANY, r = i % 2 ? 1 : 2;
+        p[i] = (struct vec3){r * cos(angle), r * sin(angle), 1};
+    }
+    assert_true(cut(&b, p, MANY));
+    assert_int_equal(b.mesh.triangle_count, MANY - 2);
+    mesh_free(&b.mesh);
+    free(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -146,6 +187,8 @@ int main(void)
         cmocka_unit_test(bent_quads_take_the_better_diagonal),
         cmocka_unit_test(rounded_numbers_stay_one_face),
         cmocka_unit_test(corners_on_an_edge_are_kept),
+        cmocka_unit_test(strongly_bent_quads_keep_their_corners),
+        cmocka_unit_test(tangles_are_refused),
         cmocka_unit_test(nonsense_is_refused_or_harmless),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
