@@ -179,7 +179,7 @@ static bool compare(const struct mesh *ours, const struct mesh *theirs)
         double tolerance;
         bool faces;
     } ways[] = {
-        {"vertices", TOLERANCE, false}, {"grid", GRID_STEP, false}, {"surface", TOLERANCE, true}};
+        {"vertices", TOLERANCE, false}, {"grid", GRID_STEP, false}, {"surface", GRID_STEP, true}};
     double floats = FLOATS * farthest(theirs);
     struct missing extra = {0}, lost = {0};
     bool same = same_measures(ours, theirs, fmax(GRID_STEP, floats));
