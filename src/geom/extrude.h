@@ -22,7 +22,7 @@ struct linear_extrusion {
 // The outline is clean. *convex is set when the solid is known to be convex: its faces are whole
 // then, not single triangles. An empty mesh is a result; false when it would have more than
 // EXTRUSION_TRIANGLES_MOST triangles.
-enum { EXTRUSION_TRIANGLES_MOST = 1 << 26 };
+enum { EXTRUSION_TRIANGLES_MOST = 1 << 23 };
 bool extrude_linear(struct mesh *out, const struct outline *o, const struct linear_extrusion *how,
                     bool *convex, struct error *err);
 
