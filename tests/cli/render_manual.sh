@@ -3,7 +3,7 @@ render=$1 manual=$2/docs/hcsg-render.1
 failed=0
 
 "$render" --help | grep -oE -- '--[a-z-]+' | sort -u >help.$$
-sed -n 's/^\.It Fl \(o Ar file , Fl \)\{0,1\}-\([a-z-]*\).*/--\2/p' "$manual" | sort -u >manual.$$
+sed -n 's/^\.It Fl \(.* Fl \)\{0,1\}-\([a-z-]*\).*/--\2/p' "$manual" | sort -u >manual.$$
 if ! cmp -s help.$$ manual.$$; then
     echo 'FAILED: options differ between --help and the manual'
     diff help.$$ manual.$$
