@@ -133,21 +133,34 @@ static inline bool box_is_empty(struct box b)
 {
     return !(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z);
 }
+// fmin and fmax are calls, and a box sees many points. A NaN as b does not count, as there.
+static inline double box_least(double a, double b)
+{
+    return b < a ? b : a;
+}
+static inline double box_most(double a, double b)
+{
+    return b > a ? b : a;
+}
+static inline struct vec3 box_low(struct vec3 a, struct vec3 b)
+{
+    return (struct vec3){box_least(a.x, b.x), box_least(a.y, b.y), box_least(a.z, b.z)};
+}
+static inline struct vec3 box_high(struct vec3 a, struct vec3 b)
+{
+    return (struct vec3){box_most(a.x, b.x), box_most(a.y, b.y), box_most(a.z, b.z)};
+}
 static inline struct box box_of_point(struct box b, struct vec3 p) // b grown to hold p
 {
-    b.min = (struct vec3){fmin(b.min.x, p.x), fmin(b.min.y, p.y), fmin(b.min.z, p.z)};
-    b.max = (struct vec3){fmax(b.max.x, p.x), fmax(b.max.y, p.y), fmax(b.max.z, p.z)};
-    return b;
+    return (struct box){box_low(b.min, p), box_high(b.max, p)};
 }
 static inline struct box box_union(struct box a, struct box b)
 {
-    return (struct box){{fmin(a.min.x, b.min.x), fmin(a.min.y, b.min.y), fmin(a.min.z, b.min.z)},
-                        {fmax(a.max.x, b.max.x), fmax(a.max.y, b.max.y), fmax(a.max.z, b.max.z)}};
+    return (struct box){box_low(a.min, b.min), box_high(a.max, b.max)};
 }
 static inline struct box box_intersection(struct box a, struct box b)
 {
-    return (struct box){{fmax(a.min.x, b.min.x), fmax(a.min.y, b.min.y), fmax(a.min.z, b.min.z)},
-                        {fmin(a.max.x, b.max.x), fmin(a.max.y, b.max.y), fmin(a.max.z, b.max.z)}};
+    return (struct box){box_high(a.min, b.min), box_low(a.max, b.max)};
 }
 static inline struct vec3 box_corner(struct box b, int i) // i in [0, 8): bit 0 x, 1 y, 2 z
 {
