@@ -38,8 +38,9 @@ static bool cross_each_other(side s, side t)
 
 void check_crossings(const Paths &a, const Paths &b)
 {
+    constexpr double most = CLIP_POINTS_MOST;
     double count = point_count(a) + point_count(b), pairs = count * count / 2;
-    if (pairs <= CLIP_POINTS_MOST)
+    if (pairs <= most)
         return;
     std::vector<side> sides;
     auto add = [&](const IntPoint &p, const IntPoint &q) { sides.emplace_back(&p, &q); };
@@ -49,7 +50,7 @@ void check_crossings(const Paths &a, const Paths &b)
     uint64_t random = 0;
     for (size_t i = 0; i < sides.size(); i++)
         hits += cross_each_other(sides[random_next(&random) % sides.size()], sides[i]);
-    if (pairs * static_cast<double>(hits) / count > CLIP_POINTS_MOST)
+    if (pairs * static_cast<double>(hits) / count > most)
         refuse("too many crossings");
 }
 

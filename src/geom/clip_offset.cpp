@@ -11,6 +11,7 @@ using namespace clip;
 namespace
 {
 constexpr double STROKE_GRID = 10000; // OpenSCAD's for the lines of SVG files
+constexpr double POINTS_MOST = CLIP_POINTS_MOST;
 constexpr double MITRE_LIMIT = 1e6;
 constexpr double STROKE_MITRE_LIMIT = 2, ARC_TOLERANCE = 0.25; // Clipper's own choice
 
@@ -78,7 +79,7 @@ Paths offset(Paths paths, double distance, enum clip_join join, struct detail de
     double n = std::min(circle_fragments(std::fabs(distance), detail), most);
     double delta = distance * GRID;
     check_reach(paths, std::fabs(delta) * (join == CLIP_MITRE ? MITRE_LIMIT : 2));
-    if (join == CLIP_ROUND && arc_points(paths, n) > CLIP_POINTS_MOST)
+    if (join == CLIP_ROUND && arc_points(paths, n) > POINTS_MOST)
         refuse("too many points");
     Paths moved = moved_sides(paths, delta);
     check_crossings(moved, {});
@@ -111,7 +112,7 @@ bool clip_stroke(struct outline *out, const struct vec2 *line, uint32_t count, d
         double delta = width * (STROKE_GRID / 2);
         check_reach(lines, 2 * std::fabs(delta));
         double pieces = M_PI / std::acos(1 - ARC_TOLERANCE / std::fmax(std::fabs(delta), 1));
-        if (!(pieces + arc_points(lines, pieces) <= CLIP_POINTS_MOST)) // a single point is a circle
+        if (!(pieces + arc_points(lines, pieces) <= POINTS_MOST)) // a single point is a circle
             refuse("too many points");
         check_crossings(lines, {});
         ClipperOffset offset(STROKE_MITRE_LIMIT, ARC_TOLERANCE);

@@ -97,7 +97,7 @@ Paths sum_terms(const Paths &a, const Paths &b)
         bool a_convex = is_convex(a), b_convex = is_convex(b);
         if (a_convex && b_convex)
             return {convex_sum(from_lowest(a[0]), from_lowest(b[0]))};
-        if (pairs * (a_convex || b_convex ? 1 : 4) > CLIP_POINTS_MOST)
+        if (pairs * (a_convex || b_convex ? 1 : 4) > static_cast<double>(CLIP_POINTS_MOST))
             refuse("too many points");
         if (a_convex || b_convex) {
             add_convex_sweep(&terms, a_convex ? b : a, from_lowest(a_convex ? a[0] : b[0]));
