@@ -38,7 +38,7 @@ class cells
     }
 
     // Whether the triangles of an operand bound a volume at all.
-    bool is_closed(int operand) const
+    bool is_closed(unsigned operand) const
     {
         return even[operand];
     }
