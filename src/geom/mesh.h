@@ -22,4 +22,7 @@ void mesh_drop_unused(struct mesh *m);
 void mesh_weld(struct mesh *m);
 
 struct box mesh_bounds(const struct mesh *m);
+double mesh_area(const struct mesh *m);   // of all triangles
 double mesh_volume(const struct mesh *m); // signed: positive when triangles face outward
+// The map that takes z = 0 to the plane of the largest triangle, x and y to unit vectors in it.
+void mesh_largest_plane(const struct mesh *m, struct affine *out);

@@ -118,24 +118,6 @@ static void cut_lines(const struct mesh *m, bool zero_is_above, struct lines *ou
     }
 }
 
-// The sections a little above and a little below the plane, both shrunk onto it, are all of the
-// solid's points in the plane but for those where it only touches it in lines and points: a face
-// that lies in the plane bounds one of the two.
-bool section_cut(struct outline *out, const struct mesh *m)
-{
-    struct outline parts[2] = {{0}, {0}};
-    for (int i = 0; i < 2; i++) {
-        struct lines l = {0};
-        cut_lines(m, i == 1, &l);
-        trace(m, &l, &parts[i]);
-    }
-    const struct outline *shapes[2] = {&parts[0], &parts[1]};
-    bool done = clip_nonzero(out, shapes, 2);
-    outline_free(&parts[0]);
-    outline_free(&parts[1]);
-    return done;
-}
-
 struct edge {
     uint64_t pair;
     int32_t turn; // 1 from the smaller to the larger number
@@ -176,14 +158,14 @@ static void border_lines(const struct mesh *m, bool up, struct lines *out)
     free(edges);
 }
 
-// Of a closed mesh either half would do: a line along z that meets no edge leaves the solid as
-// often as it enters it. Open meshes, which OpenSCAD projects too, need both.
-bool section_shadow(struct outline *out, const struct mesh *m)
+// The union of what two sets of lines run around.
+static bool unite(struct outline *out, const struct mesh *m,
+                  void (*find_lines)(const struct mesh *m, bool first, struct lines *out))
 {
     struct outline parts[2] = {{0}, {0}};
     for (int i = 0; i < 2; i++) {
         struct lines l = {0};
-        border_lines(m, i == 1, &l);
+        find_lines(m, i == 1, &l);
         trace(m, &l, &parts[i]);
     }
     const struct outline *shapes[2] = {&parts[0], &parts[1]};
@@ -191,4 +173,19 @@ bool section_shadow(struct outline *out, const struct mesh *m)
     outline_free(&parts[0]);
     outline_free(&parts[1]);
     return done;
+}
+
+// The sections a little above and a little below the plane, both shrunk onto it, are all of the
+// solid's points in the plane but for those where it only touches it in lines and points: a face
+// that lies in the plane bounds one of the two.
+bool section_cut(struct outline *out, const struct mesh *m)
+{
+    return unite(out, m, cut_lines);
+}
+
+// Of a closed mesh either half would do: a line along z that meets no edge leaves the solid as
+// often as it enters it. Open meshes, which OpenSCAD projects too, need both.
+bool section_shadow(struct outline *out, const struct mesh *m)
+{
+    return unite(out, m, border_lines);
 }

@@ -50,6 +50,15 @@ bool detail_set(struct detail *d, const char *name, const struct csg_value *v)
     return true;
 }
 
+bool detail_assigned(struct detail *d, const struct csg_node *first)
+{
+    bool any = false;
+    for (const struct csg_node *n = first; n; n = n->next)
+        if (n->name[0] == CSG_ASSIGN[0] && n->argument_count == 1)
+            any |= detail_set(d, n->arguments[0].name, &n->arguments[0].value);
+    return any;
+}
+
 static uint32_t parameter_number(const struct parameters *p, const char *name)
 {
     for (uint32_t i = 0; i < PARAMETERS_MAX && p->names[i]; i++)

@@ -31,3 +31,6 @@ bool value_is_vector(const struct csg_value *v);
 
 // $fn, $fa, $fs of one name; false when it is none of them.
 bool detail_set(struct detail *d, const char *name, const struct csg_value *v);
+// Those that a block assigns, given its first node: they hold for all of it, also before the place
+// where they stand. False when there are none.
+bool detail_assigned(struct detail *d, const struct csg_node *first);

@@ -4,7 +4,6 @@
 #include "geom/hull.h"
 #include "geom/mesh.h"
 #include "geom/minkowski.h"
-#include "geom/placed.h"
 #include "model/nodes.h"
 
 #include <stdlib.h>

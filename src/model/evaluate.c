@@ -10,13 +10,11 @@
 #include "base/parallel.h"
 #include "model/digest.h"
 #include "model/nodes.h"
-#include "model/operators.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { KEY_GEOMETRY = 0x67656f6d };
-#define LARGEST 1e30 // far inside what 32-bit numbers hold
 
 // A node whose children are being evaluated.
 struct level {
@@ -94,20 +92,10 @@ static struct value value_of(struct evaluation *e, const struct geometry *g)
 static void visit_solid(struct evaluation *e, const struct args *args, const struct node_type *type,
                         const struct affine *matrix)
 {
-    struct affine place = AFFINE_IDENTITY;
-    const struct solid *solid = type->shape(e->b, args, &place);
+    struct leaf leaf;
     struct value v = {.kind = GEOMETRY_SOLID, .term = TERM_EMPTY};
-    if (solid) {
-        struct leaf leaf = {
-            .solid = solid, .to_world = affine_mul(matrix, &place), .colour = {-1, -1, -1, -1}};
-        struct box box = box_transformed(solid->bounds, &leaf.to_world);
-        if (fmin(box.min.x, fmin(box.min.y, box.min.z)) >= -LARGEST &&
-            fmax(box.max.x, fmax(box.max.y, box.max.z)) <= LARGEST)
-            v.term = scene_leaf(&e->b->scene, &leaf);
-        else
-            builder_warn(e->b, args->node, "%s() is too large or too far away; left out",
-                         args->node->name);
-    }
+    if (builder_leaf(e->b, args, type, matrix, &leaf))
+        v.term = scene_leaf(&e->b->scene, &leaf);
     push_value(e, v);
 }
 
@@ -119,17 +107,6 @@ static void visit_flat(struct evaluation *e, const struct args *args, const stru
 }
 
 // ---------------------------------------------------------------- down
-
-static void read_assignments(struct evaluation *e, struct level *l)
-{
-    struct detail d = e->details[l->detail];
-    bool any = false;
-    for (const struct csg_node *n = l->next; n; n = n->next)
-        if (n->name[0] == CSG_ASSIGN[0] && n->argument_count == 1)
-            any |= detail_set(&d, n->arguments[0].name, &n->arguments[0].value);
-    if (any)
-        l->detail = push_detail(e, l->detail, d);
-}
 
 static void visit_parent(struct evaluation *e, const struct csg_node *n,
                          const struct node_type *type, const struct args *args, struct level l)
@@ -158,7 +135,9 @@ static void visit_parent(struct evaluation *e, const struct csg_node *n,
     }
     if (type->kind == NODE_COMBINED)
         l.matrix = push_matrix(e, l.matrix, &AFFINE_IDENTITY);
-    read_assignments(e, &l);
+    struct detail assigned = e->details[l.detail];
+    if (detail_assigned(&assigned, l.next))
+        l.detail = push_detail(e, l.detail, assigned);
     array_reserve(&e->levels, &e->level_room, (size_t)e->level_count + 1);
     e->levels[e->level_count++] = l;
 }

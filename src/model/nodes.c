@@ -76,6 +76,36 @@ void builder_warn_left_out(struct builder *b, const struct csg_node *n,
         builder_warn(b, n, "unknown object '%s'; left out", n->name);
 }
 
+bool leaf_fits(const struct leaf *leaf)
+{
+    static const double largest = 1e30; // far inside what 32-bit numbers hold
+    struct box box = box_transformed(leaf->solid->bounds, &leaf->to_world);
+    return fmin(box.min.x, fmin(box.min.y, box.min.z)) >= -largest &&
+           fmax(box.max.x, fmax(box.max.y, box.max.z)) <= largest;
+}
+
+void builder_warn_too_large(struct builder *b, const struct csg_node *n)
+{
+    builder_warn(b, n, "%s() is too large or too far away to be drawn; left out", n->name);
+}
+
+bool builder_leaf(struct builder *b, const struct args *args, const struct node_type *type,
+                  const struct affine *matrix, struct leaf *out)
+{
+    struct affine place = AFFINE_IDENTITY;
+    const struct solid *solid = type->shape(b, args, &place);
+    if (!solid)
+        return false;
+    *out = (struct leaf){.solid = solid,
+                         .to_world = affine_mul(matrix, &place),
+                         .colour = {-1, -1, -1, -1},
+                         .place = builder_place(b, args->node)};
+    if (leaf_fits(out))
+        return true;
+    builder_warn_too_large(b, args->node);
+    return false;
+}
+
 static int compare(const void *name, const void *type)
 {
     return strcmp(name, ((const struct node_type *)type)->name);

@@ -1,6 +1,6 @@
 // nodes.h - what the names of nodes mean.
 #pragma once
-#include "model/operators.h"
+#include "model/combine.h"
 
 enum node_kind {
     NODE_UNKNOWN,
@@ -52,6 +52,13 @@ void colour_of(struct builder *b, const struct args *args, float out[4]);
 // line are said once.
 void builder_warn_left_out(struct builder *b, const struct csg_node *n,
                            const struct node_type *type);
+
+// The leaf of a SHAPE node under a matrix, without a colour. False for the empty set, and with a
+// warning for what is too large to be drawn.
+bool builder_leaf(struct builder *b, const struct args *args, const struct node_type *type,
+                  const struct affine *matrix, struct leaf *out);
+bool leaf_fits(const struct leaf *leaf); // is it small and near enough to be drawn?
+void builder_warn_too_large(struct builder *b, const struct csg_node *n);
 
 // flats.c
 extern const struct parameters parameters_square, parameters_circle, parameters_polygon,

@@ -1,8 +1,8 @@
 // operands.c - the children of a node and what they are together.
+#include "model/operands.h"
 #include "geom/boolean.h"
 #include "geom/clip.h"
 #include "geom/placed.h"
-#include "model/operators.h"
 #include "model/sheet.h"
 
 #include <stdlib.h>

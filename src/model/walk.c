@@ -75,21 +75,11 @@ static void push_detail(struct walk *w, struct frame *f, struct detail d)
     w->details[++f->detail] = d;
 }
 
-// Assignments hold for the whole block, also before the place where they stand.
-static void read_assignments(struct walk *w, struct frame *f)
-{
-    struct detail d = w->details[f->detail];
-    bool any = false;
-    for (const struct csg_node *n = f->next; n; n = n->next)
-        if (n->name[0] == CSG_ASSIGN[0] && n->argument_count == 1)
-            any |= detail_set(&d, n->arguments[0].name, &n->arguments[0].value);
-    if (any)
-        push_detail(w, f, d);
-}
-
 static void push_frame(struct walk *w, struct frame f)
 {
-    read_assignments(w, &f);
+    struct detail assigned = w->details[f.detail];
+    if (detail_assigned(&assigned, f.next))
+        push_detail(w, &f, assigned);
     array_reserve(&w->frames, &w->frame_room, (size_t)w->frame_count + 1);
     w->frames[w->frame_count++] = f;
 }
@@ -129,28 +119,15 @@ static void mark(struct walk *w, const struct csg_node *n, uint32_t term)
 
 static void visit_shape(struct walk *w, const struct csg_node *n, const struct node_type *type)
 {
-    static const double largest = 1e30; // far inside what 32-bit numbers hold
     const struct frame *f = &w->frames[w->frame_count - 1];
     struct args args;
-    struct affine place = AFFINE_IDENTITY;
+    struct leaf leaf;
+    uint32_t term = TERM_EMPTY;
     args_bind(&args, w->b, n, type->parameters, w->details[f->detail]);
-    const struct solid *solid = type->shape(w->b, &args, &place);
-    if (!solid) {
-        fold(w, TERM_EMPTY);
-        return;
+    if (builder_leaf(w->b, &args, type, &w->matrices[f->matrix], &leaf)) {
+        memcpy(leaf.colour, w->colours[f->colour].c, sizeof leaf.colour);
+        term = scene_leaf(&w->b->scene, &leaf);
     }
-    struct leaf leaf = {.solid = solid,
-                        .to_world = affine_mul(&w->matrices[f->matrix], &place),
-                        .place = builder_place(w->b, n)};
-    memcpy(leaf.colour, w->colours[f->colour].c, sizeof leaf.colour);
-    struct box box = box_transformed(solid->bounds, &leaf.to_world);
-    if (!(fmin(box.min.x, fmin(box.min.y, box.min.z)) >= -largest &&
-          fmax(box.max.x, fmax(box.max.y, box.max.z)) <= largest)) {
-        builder_warn(w->b, n, "%s() is too large or too far away to be drawn; left out", n->name);
-        fold(w, TERM_EMPTY);
-        return;
-    }
-    uint32_t term = scene_leaf(&w->b->scene, &leaf);
     mark(w, n, term);
     fold(w, term);
 }
@@ -216,6 +193,7 @@ static void visit_geometry(struct walk *w, const struct csg_node *n, const struc
     struct scene *s = &w->b->scene;
     const struct geometry *g = evaluate_node(w->b, n, w->details[f->detail]);
     uint32_t first = s->leaf_count, term = TERM_EMPTY;
+    bool fits = true;
     if (g && g->kind == GEOMETRY_FLAT && g->plate)
         term = scene_leaf(
             s, &(struct leaf){.solid = g->plate, .to_world = AFFINE_IDENTITY, .flat = true});
@@ -228,6 +206,11 @@ static void visit_geometry(struct walk *w, const struct csg_node *n, const struc
         leaf->to_world = affine_mul(&w->matrices[f->matrix], &leaf->to_world);
         leaf->place = builder_place(w->b, n);
         memcpy(leaf->colour, w->colours[f->colour].c, sizeof leaf->colour);
+        fits &= leaf_fits(leaf);
+    }
+    if (!fits) {
+        builder_warn_too_large(w->b, n);
+        term = TERM_EMPTY;
     }
     mark(w, n, term);
     fold(w, term);

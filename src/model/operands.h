@@ -1,4 +1,4 @@
-// operators.h - what nodes make of the objects below them.
+// operands.h - the children of a node and what they are together.
 #pragma once
 #include "model/args.h"
 #include "model/geometry.h"
@@ -51,15 +51,3 @@ bool operands_points(struct operands *o, uint32_t term, struct point_list *out);
 void operands_become(struct operands *o, const struct solid *solid, struct value *out);
 // Adds a leaf to what they have become.
 void operands_add(struct operands *o, const struct solid *solid, struct value *out);
-
-extern const struct parameters parameters_linear_extrude, parameters_rotate_extrude,
-    parameters_offset, parameters_fill, parameters_hull, parameters_minkowski, parameters_resize,
-    parameters_projection;
-void combine_linear_extrude(struct operands *o, struct value *out);
-void combine_rotate_extrude(struct operands *o, struct value *out);
-void combine_offset(struct operands *o, struct value *out);
-void combine_fill(struct operands *o, struct value *out);
-void combine_hull(struct operands *o, struct value *out);
-void combine_minkowski(struct operands *o, struct value *out);
-void combine_resize(struct operands *o, struct value *out);
-void combine_projection(struct operands *o, struct value *out);
