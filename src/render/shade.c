@@ -13,71 +13,6 @@ static const float highlight_colour[4] = {1, 81 / 255.0f, 81 / 255.0f, 128 / 255
 
 #define AMBIENT 0.2
 
-// Normals of a mesh whose faces have several triangles; their length is twice the area.
-struct face_normals {
-    const struct solid *solid;
-    struct vec3 *normals;
-};
-
-static int by_solid(const void *a, const void *b)
-{
-    uintptr_t left = (uintptr_t)((const struct face_normals *)a)->solid;
-    uintptr_t right = (uintptr_t)((const struct face_normals *)b)->solid;
-    return (left > right) - (left < right);
-}
-
-static struct vec3 triangle_normal(const struct mesh *m, uint32_t triangle)
-{
-    const uint32_t *t = m->triangles[triangle];
-    struct vec3 a = m->vertices[t[0]];
-    return vec3_cross(vec3_sub(m->vertices[t[1]], a), vec3_sub(m->vertices[t[2]], a));
-}
-
-static bool faces_are_triangles(const struct mesh *m)
-{
-    if (m->face_count != m->triangle_count)
-        return false;
-    for (uint32_t i = 0; i < m->triangle_count; i++)
-        if (m->faces[i] != i)
-            return false;
-    return true;
-}
-
-static struct vec3 *sum_normals(const struct mesh *m)
-{
-    if (faces_are_triangles(m))
-        return NULL;
-    struct vec3 *normals = mem_zalloc(m->face_count * sizeof *normals);
-    for (uint32_t i = 0; i < m->triangle_count; i++)
-        normals[m->faces[i]] = vec3_add(normals[m->faces[i]], triangle_normal(m, i));
-    return normals;
-}
-
-static void collect_normals(struct shader *s)
-{
-    uint32_t count = 0, capacity = 0, kept = 0;
-    for (uint32_t b = 0; b < s->model->body_count; b++) {
-        const struct body *body = &s->model->bodies[b];
-        for (uint32_t i = 0; i < body->leaf_count; i++) {
-            const struct solid *solid = body->leaves[i].solid;
-            if (solid->convex || (count && s->face_normals[count - 1].solid == solid))
-                continue;
-            array_reserve(&s->face_normals, &capacity, count + 1);
-            s->face_normals[count++] = (struct face_normals){.solid = solid};
-        }
-    }
-    if (count)
-        qsort(s->face_normals, count, sizeof *s->face_normals, by_solid);
-    for (uint32_t i = 0; i < count; i++) {
-        if (kept && s->face_normals[kept - 1].solid == s->face_normals[i].solid)
-            continue;
-        s->face_normals[kept] = s->face_normals[i];
-        s->face_normals[kept].normals = sum_normals(&s->face_normals[kept].solid->mesh);
-        kept++;
-    }
-    s->face_normals_count = kept;
-}
-
 // Numbers the members of the outermost union, and marks those that are a single leaf.
 static void find_parts(struct body_shading *out, const struct expr *e)
 {
@@ -127,7 +62,7 @@ void shader_init(struct shader *out, const struct model *m, const struct scheme 
         }
         find_parts(shading, &body->expr);
     }
-    collect_normals(out);
+    normals_init(&out->normals, m);
 }
 
 void shader_free(struct shader *s)
@@ -136,9 +71,7 @@ void shader_free(struct shader *s)
         for (uint32_t b = 0; b < s->model->body_count; b++)
             free(s->bodies[b].materials);
     free(s->bodies);
-    for (uint32_t i = 0; i < s->face_normals_count; i++)
-        free(s->face_normals[i].normals);
-    free(s->face_normals);
+    normals_free(&s->normals);
     *s = (struct shader){0};
 }
 
@@ -153,19 +86,6 @@ struct light light_of(const struct rays *rays)
     return (struct light){vec3_normalized(vec3_scale(sum, -1)), ahead};
 }
 
-// The normal in the leaf's own coordinates, of any length; zero when the face has no area.
-static struct vec3 local_normal(const struct shader *s, const struct solid *solid, uint32_t face)
-{
-    if (solid->convex) {
-        const struct planes *p = &solid->planes;
-        return (struct vec3){p->nx[face], p->ny[face], p->nz[face]};
-    }
-    const struct face_normals key = {.solid = solid};
-    const struct face_normals *found =
-        bsearch(&key, s->face_normals, s->face_normals_count, sizeof *s->face_normals, by_solid);
-    return found && found->normals ? found->normals[face] : triangle_normal(&solid->mesh, face);
-}
-
 static uint8_t to_byte(double v)
 {
     return v < 1 ? (uint8_t)(255 * v + 0.5) : 255;
@@ -176,10 +96,8 @@ struct rgba shade_face(const struct shader *s, uint32_t body, const struct light
 {
     const struct leaf *placed = &s->model->bodies[body].leaves[leaf];
     const struct material *m = &s->bodies[body].materials[leaf];
-    struct vec3 normal = light->view_axis;
-    if (face != SURFACE_CAP)
-        normal =
-            vec3_normalized(affine_normal(&placed->to_local, local_normal(s, placed->solid, face)));
+    struct vec3 normal =
+        face == SURFACE_CAP ? light->view_axis : normals_find(&s->normals, placed, face);
     double factor = AMBIENT + fabs(vec3_dot(normal, light->direction));
     return (struct rgba){to_byte((double)m->r * factor), to_byte((double)m->g * factor),
                          to_byte((double)m->b * factor), m->alpha};

@@ -1,6 +1,7 @@
 // shade.h - from surfaces to colours: materials, OpenSCAD's light, transparency.
 #pragma once
 #include "model/model.h"
+#include "render/normals.h"
 #include "render/rays.h"
 #include "render/scheme.h"
 
@@ -26,9 +27,8 @@ struct body_shading {
 struct shader {
     const struct model *model;
     const struct scheme *scheme;
-    struct body_shading *bodies;       // per body of the model
-    struct face_normals *face_normals; // sorted by solid
-    uint32_t face_normals_count;
+    struct body_shading *bodies; // per body of the model
+    struct normals normals;
 };
 
 void shader_init(struct shader *out, const struct model *m, const struct scheme *scheme);

@@ -135,7 +135,7 @@ static void meshes_use_the_normal_of_the_face(void **state)
     struct scene s = {.leaves = {place(&merged, AFFINE_IDENTITY), place(&plain, AFFINE_IDENTITY),
                                  place(&merged, AFFINE_IDENTITY)}};
     scene_finish(&s, 3, BODY_MAIN);
-    assert_int_equal(s.shader.face_normals_count, 2);
+    assert_int_equal(s.shader.normals.mesh_count, 2);
     for (uint32_t leaf = 0; leaf < 3; leaf += 2) {
         expect(&s, leaf, 0, 250, 216, 44);
         expect(&s, leaf, 1, 165, 143, 29);
