@@ -58,6 +58,16 @@ struct render_stats {
     uint64_t open_rays; // rays on which a mesh did not close
     size_t peak_bytes;  // beyond model and outputs
 };
+static inline void render_stats_add(struct render_stats *sum, const struct render_stats *one)
+{
+    sum->seconds_setup += one->seconds_setup;
+    sum->seconds_draw += one->seconds_draw;
+    sum->fragments += one->fragments;
+    sum->misses += one->misses;
+    sum->open_rays += one->open_rays;
+    if (one->peak_bytes > sum->peak_bytes)
+        sum->peak_bytes = one->peak_bytes;
+}
 
 // The device on the processor: any number of threads, bit-identical results.
 struct cpu_device;

@@ -271,17 +271,6 @@ static void blend_block(void *context, uint32_t worker, const struct span_block 
     }
 }
 
-static void add_stats(struct render_stats *sum, const struct render_stats *one)
-{
-    sum->seconds_setup += one->seconds_setup;
-    sum->seconds_draw += one->seconds_draw;
-    sum->fragments += one->fragments;
-    sum->misses += one->misses;
-    sum->open_rays += one->open_rays;
-    if (one->peak_bytes > sum->peak_bytes)
-        sum->peak_bytes = one->peak_bytes;
-}
-
 void picture_draw(struct picture *p, struct cpu_device *device, const struct shader *shader,
                   const struct rays *rays, const struct render_settings *settings,
                   struct render_stats *stats)
@@ -313,6 +302,6 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
         } else {
             cpu_spans(device, body, rays, settings, blend_block, &d, &one);
         }
-        add_stats(stats, &one);
+        render_stats_add(stats, &one);
     }
 }

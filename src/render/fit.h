@@ -1,0 +1,11 @@
+// fit.h - the camera moved and its distance chosen so that what shows fills the picture.
+#pragma once
+#include "render/camera.h"
+#include "render/device.h"
+
+// Keeps rotation, projection and angle of view. Between what shows and the borders of the picture
+// `margin` pixels stay free, on two opposite sides no more than that; on the others it is centred.
+// The camera has to show the whole model when it begins (camera_viewall); it stays as it is where
+// nothing shows.
+void camera_fit(struct camera *c, int width, int height, double margin, struct cpu_device *device,
+                const struct model *model, const struct render_settings *settings);
