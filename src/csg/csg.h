@@ -61,6 +61,19 @@ bool csg_parse(struct csg_tree *out, const char *file, char *text, size_t size,
 bool csg_parse_file(struct csg_tree *out, const char *path, struct messages *messages);
 void csg_free(struct csg_tree *t); // leaves {0}
 
+// Nodes in the order of the file, each before those below it, which come only if they are entered:
+//     csg_enter(&it, first);
+//     while ((n = csg_next(&it)))
+//         csg_enter(&it, n->child);
+struct csg_iterator { // {0} is at the end
+    const struct csg_node **stack;
+    uint32_t count, room;
+};
+
+void csg_enter(struct csg_iterator *it, const struct csg_node *first); // and its next ones; or NULL
+const struct csg_node *csg_next(struct csg_iterator *it);              // NULL at the end
+void csg_iterator_free(struct csg_iterator *it);                       // leaves {0}
+
 // Writes the tree as OpenSCAD 2021.01 exports it. Returns a malloc'ed text and its length. Trees
 // deeper than 10,000 are not indented, whose tabs alone would fill the memory.
 char *csg_print(const struct csg_tree *t, size_t *size);

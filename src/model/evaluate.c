@@ -352,30 +352,19 @@ const struct geometry *evaluate_node(struct builder *b, const struct csg_node *n
 
 bool evaluates_flat(const struct csg_node *root)
 {
-    const struct csg_node **stack = NULL;
-    uint32_t count = 0, room = 0;
-    bool flat = false;
-    for (const struct csg_node *n = root->child; n || count;) {
-        if (!n) {
-            n = stack[--count];
+    struct csg_iterator it = {0};
+    const struct csg_node *n;
+    enum geometry_kind kind = GEOMETRY_NONE;
+    csg_enter(&it, root->child);
+    while (kind == GEOMETRY_NONE && (n = csg_next(&it))) {
+        if (n->modifiers & (CSG_DISABLE | CSG_BACKGROUND))
             continue;
-        }
         const struct node_type *type = node_type_of(n->name);
-        bool counts = !(n->modifiers & (CSG_DISABLE | CSG_BACKGROUND));
-        if (counts && type->kind == NODE_IMPORT)
-            type = import_type_of(n);
-        if (counts && type->gives != GEOMETRY_NONE) {
-            flat = type->gives == GEOMETRY_FLAT;
-            break;
-        }
-        if (n->next) {
-            array_reserve(&stack, &room, (size_t)count + 1);
-            stack[count++] = n->next;
-        }
-        n = counts ? n->child : NULL;
+        kind = type->kind == NODE_IMPORT ? import_type_of(n)->gives : type->gives;
+        csg_enter(&it, n->child);
     }
-    free(stack);
-    return flat;
+    csg_iterator_free(&it);
+    return kind == GEOMETRY_FLAT;
 }
 
 static void evaluate_job(void *context, uint32_t item, uint32_t worker)

@@ -167,22 +167,17 @@ static void visit_parent(struct walk *w, const struct csg_node *n, const struct 
 // Is a node below this one marked % or #?
 static bool has_marked(const struct csg_node *root)
 {
-    const struct csg_node **stack = NULL;
-    uint32_t count = 0, room = 0;
+    struct csg_iterator it = {0};
+    const struct csg_node *n;
     bool found = false;
-    for (const struct csg_node *n = root->child; !found && (n || count);) {
-        if (!n) {
-            n = stack[--count];
+    csg_enter(&it, root->child);
+    while (!found && (n = csg_next(&it))) {
+        if (n->modifiers & CSG_DISABLE)
             continue;
-        }
-        found = !(n->modifiers & CSG_DISABLE) && (n->modifiers & (CSG_BACKGROUND | CSG_HIGHLIGHT));
-        if (n->next) {
-            array_reserve(&stack, &room, (size_t)count + 1);
-            stack[count++] = n->next;
-        }
-        n = n->modifiers & CSG_DISABLE ? NULL : n->child;
+        found = n->modifiers & (CSG_BACKGROUND | CSG_HIGHLIGHT);
+        csg_enter(&it, n->child);
     }
-    free(stack);
+    csg_iterator_free(&it);
     return found;
 }
 
@@ -290,31 +285,21 @@ static void leave(struct walk *w)
 // The first node marked with ! in the order of the file, NULL without one.
 static const struct csg_node *find_root(struct builder *b)
 {
-    const struct csg_node **stack = NULL, *root = NULL;
-    uint32_t count = 0, room = 0;
-    for (const struct csg_node *n = b->tree->first; n || count;) {
-        if (!n) {
-            n = stack[--count];
+    struct csg_iterator it = {0};
+    const struct csg_node *n, *root = NULL;
+    csg_enter(&it, b->tree->first);
+    while ((n = csg_next(&it))) {
+        if (n->modifiers & CSG_DISABLE)
             continue;
+        if ((n->modifiers & CSG_ROOT) && root) {
+            builder_warn(b, n, "another object is marked with '!' before; it is the root");
+            break;
         }
-        bool active = !(n->modifiers & CSG_DISABLE);
-        if (active && (n->modifiers & CSG_ROOT)) {
-            if (root) {
-                builder_warn(b, n, "another object is marked with '!' before; it is the root");
-                break;
-            }
+        if (n->modifiers & CSG_ROOT)
             root = n;
-        }
-        if (active && n->child) {
-            if (n->next) {
-                array_reserve(&stack, &room, (size_t)count + 1);
-                stack[count++] = n->next;
-            }
-            n = n->child;
-        } else
-            n = n->next;
+        csg_enter(&it, n->child);
     }
-    free(stack);
+    csg_iterator_free(&it);
     return root;
 }
 

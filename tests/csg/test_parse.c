@@ -393,6 +393,34 @@ static void locales_do_not_matter(void **state)
     messages_free(&messages);
 }
 
+static void nodes_come_in_order(void **state)
+{
+    struct messages messages = {0};
+    struct csg_tree tree;
+    struct csg_iterator it = {0};
+    const struct csg_node *n;
+    char names[16] = "";
+
+    (void)state;
+    assert_true(parse(&tree, "a() { b(); c() { d(); } e(); } f();", &messages));
+    csg_enter(&it, tree.first);
+    while ((n = csg_next(&it))) {
+        strcat(names, n->name);
+        csg_enter(&it, n->child);
+    }
+    assert_string_equal(names, "abcdef");
+
+    names[0] = 0;
+    csg_enter(&it, tree.first->child);
+    while ((n = csg_next(&it))) // c is not entered, nor are the nodes around a
+        strcat(names, n->name);
+    assert_string_equal(names, "bce");
+    csg_iterator_free(&it);
+    csg_iterator_free(&it);
+    csg_free(&tree);
+    messages_free(&messages);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -406,6 +434,7 @@ int main(void)
         cmocka_unit_test(places_count_lines_everywhere),
         cmocka_unit_test(numbers_are_exact),
         cmocka_unit_test(locales_do_not_matter),
+        cmocka_unit_test(nodes_come_in_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
