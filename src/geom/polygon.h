@@ -16,3 +16,5 @@ bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_
                  uint32_t count);
 // Could the last one not be cut, though it has three different corners?
 bool polygon_failed(const struct polygon_cutter *c);
+// What to say of those.
+#define POLYGONS_LEFT_OUT "faces that cross themselves too often: %u left out"

@@ -17,6 +17,7 @@ struct reader {
     struct polygon_cutter *cutter;
     struct numbers vertices; // of the mesh, by their number in the file: cutting adds others
     struct numbers corners;  // of the face at hand
+    uint32_t failed;         // faces
 };
 
 static void append(struct numbers *n, uint32_t item)
@@ -71,7 +72,8 @@ static bool read_face(struct reader *r)
             return false;
         append(&r->corners, vertex);
     }
-    polygon_cut(r->cutter, &r->mesh, r->corners.items, r->corners.count);
+    if (!polygon_cut(r->cutter, &r->mesh, r->corners.items, r->corners.count))
+        r->failed += polygon_failed(r->cutter);
     return true;
 }
 
@@ -93,12 +95,16 @@ static bool read_lines(struct reader *r, struct error *err)
     return true;
 }
 
-bool read_obj(const char *path, const char *data, size_t size, struct mesh *out, struct error *err)
+bool read_obj(const char *path, const char *data, size_t size, struct mesh *out,
+              struct messages *messages, struct error *err)
 {
     struct reader r = {.cutter = polygon_cutter_new()};
     scan_open(&r.scan, path, data, size);
     r.scan.hash_comments = true;
     bool ok = read_lines(&r, err);
+    if (r.failed)
+        messages_add(messages, MESSAGE_WARNING, (struct place){path, 0, 0}, POLYGONS_LEFT_OUT,
+                     r.failed);
     scan_close(&r.scan);
     polygon_cutter_delete(r.cutter);
     free(r.vertices.items);

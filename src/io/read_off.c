@@ -75,9 +75,10 @@ static bool read_face(struct scan *s, uint32_t vertex_count, struct corners *c, 
     return true;
 }
 
-static bool read_all(struct scan *s, struct mesh_builder *b, struct error *err)
+static bool read_all(struct scan *s, struct mesh_builder *b, struct messages *messages,
+                     struct error *err)
 {
-    uint32_t vertices, faces, edges;
+    uint32_t vertices, faces, edges, failed = 0;
     if (!read_header(s, err))
         return false;
     if (!scan_to_word(s) || !scan_count(s, &vertices) || !scan_to_word(s) ||
@@ -96,21 +97,25 @@ static bool read_all(struct scan *s, struct mesh_builder *b, struct error *err)
     bool ok = true;
     for (uint32_t i = 0; i < faces && ok; i++) {
         ok = read_face(s, vertices, &corners, err);
-        if (ok)
-            polygon_cut(cutter, b, corners.items, corners.count);
+        if (ok && !polygon_cut(cutter, b, corners.items, corners.count))
+            failed += polygon_failed(cutter);
     }
+    if (failed)
+        messages_add(messages, MESSAGE_WARNING, (struct place){s->path, 0, 0}, POLYGONS_LEFT_OUT,
+                     failed);
     free(corners.items);
     polygon_cutter_delete(cutter);
     return ok;
 }
 
-bool read_off(const char *path, const char *data, size_t size, struct mesh *out, struct error *err)
+bool read_off(const char *path, const char *data, size_t size, struct mesh *out,
+              struct messages *messages, struct error *err)
 {
     struct mesh_builder b = {0};
     struct scan s;
     scan_open(&s, path, data, size);
     s.hash_comments = true;
-    bool ok = read_all(&s, &b, err);
+    bool ok = read_all(&s, &b, messages, err);
     scan_close(&s);
     if (!ok) {
         mesh_free(&b.mesh);

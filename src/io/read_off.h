@@ -5,5 +5,7 @@
 
 #include <stddef.h>
 
-// Reads `size` bytes, followed by a zero byte, welded. `path` stands in messages.
-bool read_off(const char *path, const char *data, size_t size, struct mesh *out, struct error *err);
+// Reads `size` bytes, followed by a zero byte, welded. `path` stands in messages, which say what is
+// left out.
+bool read_off(const char *path, const char *data, size_t size, struct mesh *out,
+              struct messages *messages, struct error *err);

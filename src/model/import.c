@@ -120,10 +120,11 @@ static void join(struct mesh_set *set, struct mesh *out)
     *out = all.mesh;
 }
 
-static bool read_package(const char *path, const char *data, size_t size, struct mesh *out,
-                         struct error *err)
+static bool load_3mf(const char *path, const char *data, size_t size, struct mesh *out,
+                     struct messages *messages, struct error *err)
 {
     struct mesh_set set = {0};
+    (void)messages;
     bool done = read_3mf(path, data, size, false, &set, err);
     if (done)
         join(&set, out);
@@ -131,13 +132,26 @@ static bool read_package(const char *path, const char *data, size_t size, struct
     return done;
 }
 
+static bool load_stl(const char *path, const char *data, size_t size, struct mesh *out,
+                     struct messages *messages, struct error *err)
+{
+    (void)messages;
+    return read_stl(path, data, size, out, err);
+}
+
+static bool load_amf(const char *path, const char *data, size_t size, struct mesh *out,
+                     struct messages *messages, struct error *err)
+{
+    (void)messages;
+    return read_amf(path, data, size, out, err);
+}
+
 static const struct {
     const char *extension;
     bool (*read)(const char *path, const char *data, size_t size, struct mesh *out,
-                 struct error *err);
+                 struct messages *messages, struct error *err);
 } meshes[] = {
-    {"stl", read_stl}, {"off", read_off},     {"obj", read_obj},
-    {"amf", read_amf}, {"3mf", read_package},
+    {"stl", load_stl}, {"off", read_off}, {"obj", read_obj}, {"amf", load_amf}, {"3mf", load_3mf},
 };
 
 static uint32_t mesh_format(const char *path)
@@ -161,10 +175,13 @@ static const struct solid *load_mesh(struct builder *b, const struct args *args,
     solid = store_find(b->store, key);
     if (!solid) {
         struct mesh m;
-        if (meshes[format].read(path, data, size, &m, &err))
-            solid = store_add(b->store, key, &m, false);
-        else
+        uint32_t warnings = b->messages->warnings;
+        if (!meshes[format].read(path, data, size, &m, b->messages, &err))
             complain(b, args, &err);
+        else if (b->messages->warnings != warnings) // not to be found: a reload says it again
+            solid = store_mesh(b->store, &m, false);
+        else
+            solid = store_add(b->store, key, &m, false);
     }
     free(data);
     return solid && solid->mesh.triangle_count ? solid : NULL;

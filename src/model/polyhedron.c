@@ -124,11 +124,12 @@ static const struct solid *make_solid(struct builder *b, const struct args *args
         failed += !polygon_cut(b->cutter, m, f->corners + from, f->ends[i] - from) &&
                   polygon_failed(b->cutter);
     if (failed)
-        builder_warn(b, args->node,
-                     "polyhedron() faces that cross themselves too often: %u left out", failed);
+        builder_warn(b, args->node, "polyhedron() " POLYGONS_LEFT_OUT, failed);
     mesh_weld(&m->mesh);
     mesh_orient(&m->mesh);
-    return store_add(b->store, key, &m->mesh, false);
+    // Not to be found ready, so that a reload says it again.
+    return failed ? store_mesh(b->store, &m->mesh, false)
+                  : store_add(b->store, key, &m->mesh, false);
 }
 
 const struct solid *shape_polyhedron(struct builder *b, const struct args *args, struct affine *out)

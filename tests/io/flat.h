@@ -1,6 +1,6 @@
 // flat.h - what the tests of DXF and SVG share: shapes as sets of points.
 #pragma once
-#include "base/mem.h"
+#include "copy.h"
 #include "geom/outline.h"
 
 #include <setjmp.h>
@@ -35,11 +35,3 @@ static inline void expect_points(const struct outline *o, const double (*points)
         expect_points(&(o), points, array_count(points));                                          \
         outline_free(&(o));                                                                        \
     } while (0)
-
-// From memory of exactly the size and one zero byte, so that sanitizers see reads beyond.
-static inline char *exact_copy(const char *data, size_t size)
-{
-    char *copy = mem_zalloc(size + 1);
-    memcpy(copy, data, size);
-    return copy;
-}

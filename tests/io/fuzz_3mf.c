@@ -1,8 +1,7 @@
 // fuzz_3mf.c - any bytes as 3MF package or, when they are no zip archive, as the model in one.
-#include "fuzz_mesh.h"
+#include "fuzz.h"
 #include "io/read_3mf.h"
 
-#include <string.h>
 #include <zip.h>
 
 static void read_both_ways(const char *data, size_t size)
@@ -49,9 +48,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     bool zipped = size >= 2 && memcmp(data, "PK", 2) == 0;
     size_t packed_size = size;
-    char *packed = zipped ? mem_alloc(size) : pack(data, size, &packed_size);
-    if (zipped)
-        memcpy(packed, data, size);
+    char *packed = zipped ? exact_copy(data, size) : pack(data, size, &packed_size);
     read_both_ways(packed, packed_size);
     free(packed);
     return 0;

@@ -1,8 +1,6 @@
 // fuzz_surface.c - any bytes as text or picture of a height field.
-#include "fuzz_mesh.h"
+#include "fuzz.h"
 #include "io/read_surface.h"
-
-#include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -10,8 +8,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct mesh m;
     struct messages messages = {0};
     struct error err;
-    char *text = mem_zalloc(size + 1);
-    memcpy(text, data, size);
+    char *text = exact_copy(data, size);
     if (read_surface("fuzz", text, size, &options, &m, &messages, &err)) {
         check_mesh(&m);
         mesh_free(&m);

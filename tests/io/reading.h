@@ -2,14 +2,7 @@
 #pragma once
 #include "../geom/unit.h"
 #include "base/error.h"
-
-// A copy of exactly the size and the one zero byte, so that sanitizers see reads beyond.
-static inline char *exact_copy(const void *data, size_t size)
-{
-    char *copy = mem_zalloc(size + 1);
-    memcpy(copy, data, size);
-    return copy;
-}
+#include "copy.h"
 
 static inline bool read_mesh(bool (*read)(const char *path, const char *data, size_t size,
                                           struct mesh *out, struct error *err),

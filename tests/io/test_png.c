@@ -14,27 +14,10 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 // cmocka.h wants the four above first
 #include <cmocka.h>
 
-static char folder[] = "/tmp/hcsg-png-XXXXXX", path[64];
-
-static int setup(void **state)
-{
-    (void)state;
-    if (!mkdtemp(folder))
-        return -1;
-    snprintf(path, sizeof path, "%s/a.png", folder);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    unlink(path);
-    return rmdir(folder); // fails when a temporary file was left
-}
+#include "written.h"
 
 static uint8_t *noise(int width, int height)
 {
@@ -50,9 +33,9 @@ static void round_trip(int width, int height)
 {
     struct error err;
     uint8_t *rgb = noise(width, height);
-    assert_true(write_png(path, rgb, width, height, &err));
+    assert_true(write_png(written_path, rgb, width, height, &err));
     png_image image = {.version = PNG_IMAGE_VERSION};
-    assert_true(png_image_begin_read_from_file(&image, path));
+    assert_true(png_image_begin_read_from_file(&image, written_path));
     assert_int_equal(image.width, width);
     assert_int_equal(image.height, height);
     assert_int_equal(image.format, PNG_FORMAT_RGB);
@@ -80,8 +63,8 @@ static void same_picture_same_bytes(void **state)
     char *data[2];
     size_t size[2];
     for (int i = 0; i < 2; i++) {
-        assert_true(write_png(path, rgb, 64, 64, &err));
-        assert_true(file_read(path, 1 << 20, &data[i], &size[i], &err));
+        assert_true(write_png(written_path, rgb, 64, 64, &err));
+        assert_true(file_read(written_path, 1 << 20, &data[i], &size[i], &err));
     }
     assert_int_equal(size[0], size[1]);
     assert_memory_equal(data[0], data[1], size[0]);
@@ -96,12 +79,12 @@ static void failures_leave_nothing(void **state)
     struct error err = {0};
     uint8_t *rgb = noise(64, 64);
     char missing[96];
-    snprintf(missing, sizeof missing, "%s/none/a.png", folder);
+    snprintf(missing, sizeof missing, "%s/none/a.png", written_folder);
     assert_false(write_png(missing, rgb, 64, 64, &err));
     assert_non_null(strstr(err.text, "none/a.png"));
     assert_false(write_png("/dev/full", rgb, 64, 64, &err));
     assert_non_null(strstr(err.text, "/dev/full"));
-    assert_false(write_png(folder, rgb, 64, 64, &err));
+    assert_false(write_png(written_folder, rgb, 64, 64, &err));
     free(rgb);
 }
 
@@ -217,5 +200,5 @@ int main(void)
         cmocka_unit_test(sixteen_bits_read_back),
         cmocka_unit_test(pfm_is_upside_down_and_little_endian),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, written_setup, written_teardown);
 }

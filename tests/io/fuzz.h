@@ -1,6 +1,8 @@
-// fuzz_mesh.h - what holds of every mesh that a reader gives.
+// fuzz.h - what holds of every mesh and every flat shape that a reader gives.
 #pragma once
+#include "copy.h"
 #include "geom/mesh.h"
+#include "geom/outline.h"
 
 #include <stdlib.h>
 
@@ -19,4 +21,13 @@ static inline void check_mesh(const struct mesh *m)
             c[0] == c[1] || c[1] == c[2] || c[2] == c[0] || m->faces[t] >= m->face_count)
             abort();
     }
+}
+
+static inline void check_flat(const struct outline *o)
+{
+    if (!o->clean)
+        abort();
+    for (uint32_t i = 0; i < o->point_count; i++)
+        if (!isfinite(o->points[i].x) || !isfinite(o->points[i].y))
+            abort();
 }
