@@ -1,7 +1,7 @@
 // bench_main.c - hcsg-bench: frame times on the scenes of scenes.txt, beside OpenCSG's.
 #include "base/mem.h"
-#include "base/options.h"
 #include "measure.h"
+#include "program.h"
 #include "report.h"
 #include "turn.h"
 
@@ -179,13 +179,5 @@ static bool run(char **operands, int count, struct error *err)
 
 int main(int argc, char **argv)
 {
-    int operands = 0;
-    struct error err;
-    enum options_result result = options_parse(&program, argc, argv, &operands, &err);
-    if (result == OPTIONS_DONE)
-        return 0;
-    if (result == OPTIONS_RUN && run(argv + 1, operands, &err))
-        return 0;
-    fprintf(stderr, "%s: %s\n", program.name, err.text);
-    return 1;
+    return program_main(&program, argc, argv, run);
 }

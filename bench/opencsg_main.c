@@ -5,12 +5,12 @@
 // primitive is drawn plainly. Prints "key value" lines, "frame MS" as soon as each is drawn.
 #include "base/clock.h"
 #include "base/mem.h"
-#include "base/options.h"
 #include "csg/csg.h"
 #include "drawn.h"
 #include "io/write_png.h"
 #include "opencsg_c.h"
 #include "products.h"
+#include "program.h"
 #include "turn.h"
 
 #include <stdlib.h>
@@ -164,45 +164,32 @@ done:
     return ok;
 }
 
-static int run(const char *path)
+static bool run(char **operands, int count, struct error *err)
 {
-    int code = 1;
-    struct error err;
+    if (count != 1) {
+        error_set(err, "expected one file; --help shows the options");
+        return false;
+    }
     struct messages messages = {0};
     struct csg_tree tree = {0};
     struct model model = {0};
-    if (!csg_parse_file(&tree, path, &messages)) {
-        messages_print(&messages, stderr);
-        goto done;
+    if (csg_parse_file(&tree, operands[0], &messages)) {
+        struct solid_store *solids = solid_store_new();
+        model_build(&model, &tree, solids, &MODEL_DEFAULTS, &messages);
+        solid_store_delete(solids);
     }
-    struct solid_store *solids = solid_store_new();
-    model_build(&model, &tree, solids, &MODEL_DEFAULTS, &messages);
-    solid_store_delete(solids);
     messages_print(&messages, stderr);
-    if (!model.body_count || !model.bodies[0].leaf_count)
-        error_set(&err, "%s: nothing to draw", path);
-    else if (bench(&model, &err))
-        code = 0;
-    if (code)
-        fprintf(stderr, "%s: %s\n", program.name, err.text);
-done:
+    bool drawable = model.body_count && model.bodies[0].leaf_count;
+    if (!drawable)
+        error_set(err, "%s: nothing to draw", operands[0]);
+    bool ok = drawable && bench(&model, err);
     model_free(&model);
     csg_free(&tree);
     messages_free(&messages);
-    return code;
+    return ok;
 }
 
 int main(int argc, char **argv)
 {
-    int operands = 0;
-    struct error err;
-    enum options_result result = options_parse(&program, argc, argv, &operands, &err);
-    if (result == OPTIONS_DONE)
-        return 0;
-    if (result == OPTIONS_RUN && operands == 1)
-        return run(argv[1]);
-    if (result == OPTIONS_RUN)
-        error_set(&err, "expected one file; --help shows the options");
-    fprintf(stderr, "%s: %s\n", program.name, err.text);
-    return 1;
+    return program_main(&program, argc, argv, run);
 }

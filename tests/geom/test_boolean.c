@@ -1,55 +1,12 @@
 // test_boolean.c - meshes of booleans against OpenSCAD's (openscad --render -o x.off).
-#include "unit.h"
-
 #include "base/hash.h"
 #include "geom/boolean.h"
-#include "geom/primitives.h"
-
-static void place(struct mesh *m, const struct affine *a)
-{
-    for (uint32_t v = 0; v < m->vertex_count; v++)
-        m->vertices[v] = affine_point(a, m->vertices[v]);
-}
-
-static struct affine placement(struct vec3 size, struct vec3 at)
-{
-    return (struct affine){{{size.x, 0, 0, at.x}, {0, size.y, 0, at.y}, {0, 0, size.z, at.z}}};
-}
-
-static struct mesh block(double x, double y, double z, double a, double b, double c)
-{
-    struct mesh m;
-    primitive_cube(&m);
-    struct affine to = placement((struct vec3){a, b, c}, (struct vec3){x, y, z});
-    place(&m, &to);
-    return m;
-}
-
-static struct mesh ball(uint32_t n, double r, double x, double y, double z)
-{
-    struct mesh m;
-    primitive_sphere(&m, n);
-    struct affine to = placement((struct vec3){r, r, r}, (struct vec3){x, y, z});
-    place(&m, &to);
-    return m;
-}
-
-// rotate([x, y, z])
-static struct affine rotation(double x, double y, double z)
-{
-    double t = acos(-1) / 180, a = x * t, b = y * t, c = z * t;
-    struct affine rx = {{{1, 0, 0, 0}, {0, cos(a), -sin(a), 0}, {0, sin(a), cos(a), 0}}};
-    struct affine ry = {{{cos(b), 0, sin(b), 0}, {0, 1, 0, 0}, {-sin(b), 0, cos(b), 0}}};
-    struct affine rz = {{{cos(c), -sin(c), 0, 0}, {sin(c), cos(c), 0, 0}, {0, 0, 1, 0}}};
-    struct affine rxy = affine_mul(&ry, &rx);
-    return affine_mul(&rz, &rxy);
-}
+#include "shapes.h"
 
 static struct mesh tilted_cube(double size)
 {
     struct mesh m = block(-size / 2, -size / 2, -size / 2, size, size, size);
-    struct affine to = rotation(30, 40, 50);
-    place(&m, &to);
+    place(&m, rotation(30, 40, 50));
     return m;
 }
 
@@ -57,8 +14,7 @@ static struct mesh drill(double z, double h)
 {
     struct mesh m;
     primitive_cylinder(&m, 12, 3, 3);
-    struct affine to = placement((struct vec3){1, 1, h}, (struct vec3){5, 5, z});
-    place(&m, &to);
+    place_sized(&m, (struct vec3){1, 1, h}, (struct vec3){5, 5, z});
     return m;
 }
 
@@ -257,7 +213,7 @@ static void chain(uint64_t *random, const struct affine *turn)
             size[i] = least + (int)(random_next(random) % (uint64_t)(most - least + 1));
         }
         struct mesh b = block(low[0], low[1], low[2], size[0], size[1], size[2]);
-        place(&b, turn);
+        place(&b, *turn);
         struct mesh next = combined(op, &m, &b);
         mesh_free(&b);
         mesh_free(&m);

@@ -1,42 +1,7 @@
 // test_section.c - sections and shadows against OpenSCAD's projection() (openscad -o x.svg).
-#include "unit.h"
-
 #include "geom/boolean.h"
-#include "geom/primitives.h"
 #include "geom/section.h"
-
-static void place(struct mesh *m, struct affine a)
-{
-    for (uint32_t v = 0; v < m->vertex_count; v++)
-        m->vertices[v] = affine_point(&a, m->vertices[v]);
-}
-
-static struct mesh block(double x, double y, double z, double a, double b, double c)
-{
-    struct mesh m;
-    primitive_cube(&m);
-    place(&m, (struct affine){{{a, 0, 0, x}, {0, b, 0, y}, {0, 0, c, z}}});
-    return m;
-}
-
-static struct mesh ball(uint32_t n, double r, double x, double y, double z)
-{
-    struct mesh m;
-    primitive_sphere(&m, n);
-    place(&m, (struct affine){{{r, 0, 0, x}, {0, r, 0, y}, {0, 0, r, z}}});
-    return m;
-}
-
-// rotate([x, y, z])
-static struct affine rotation(double x, double y, double z)
-{
-    double t = acos(-1) / 180, a = x * t, b = y * t, c = z * t;
-    struct affine rx = {{{1, 0, 0, 0}, {0, cos(a), -sin(a), 0}, {0, sin(a), cos(a), 0}}};
-    struct affine ry = {{{cos(b), 0, sin(b), 0}, {0, 1, 0, 0}, {-sin(b), 0, cos(b), 0}}};
-    struct affine rz = {{{cos(c), -sin(c), 0, 0}, {sin(c), cos(c), 0, 0}, {0, 0, 1, 0}}};
-    struct affine rxy = affine_mul(&ry, &rx);
-    return affine_mul(&rz, &rxy);
-}
+#include "shapes.h"
 
 static struct mesh drilled_block(void)
 {

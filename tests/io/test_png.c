@@ -103,7 +103,7 @@ static bool no_size(const char *name, uint64_t rows, uint64_t columns, struct er
 static void load(char **data, size_t *size)
 {
     struct error err;
-    if (!file_read(path, 1 << 20, data, size, &err))
+    if (!file_read(written_path, 1 << 20, data, size, &err))
         fail_msg("%s", err.text);
 }
 
@@ -111,7 +111,7 @@ static void write_some(enum png_kind kind, int width, int height, const void *pi
 {
     static const struct png_note note = {"Title", "one line"};
     struct error err;
-    assert_true(write_png_picture(path,
+    assert_true(write_png_picture(written_path,
                                   &(struct png_picture){.width = width,
                                                         .height = height,
                                                         .kind = kind,
@@ -132,7 +132,7 @@ static void alpha_reads_back(void **state)
     write_some(PNG_KIND_RGBA, 1, 2, rgba);
     load(&data, &size);
     assert_non_null(memmem(data, size, "tEXtTitle\0one line", 18));
-    assert_true(read_png(path, data, size, any_size, &p, &err));
+    assert_true(read_png(written_path, data, size, any_size, &p, &err));
     assert_int_equal(p.width, 1);
     assert_int_equal(p.height, 2);
     assert_memory_equal(p.rgba, rgba, sizeof rgba);
@@ -159,13 +159,13 @@ static void sixteen_bits_read_back(void **state)
     load(&data, &size);
     assert_int_equal(data[24], 16); // bits of a channel
     assert_int_equal(data[25], 0);  // grey
-    assert_true(read_png(path, data, size, any_size, &p, &err));
+    assert_true(read_png(written_path, data, size, any_size, &p, &err));
     assert_memory_equal(p.rgba, upper, sizeof upper);
     free(p.rgba);
     free(data);
     png_image image = {.version = PNG_IMAGE_VERSION};
     uint16_t back[3];
-    assert_true(png_image_begin_read_from_file(&image, path));
+    assert_true(png_image_begin_read_from_file(&image, written_path));
     image.format = PNG_FORMAT_LINEAR_Y;
     assert_true(png_image_finish_read(&image, NULL, back, 0, NULL));
     assert_memory_equal(back, grey, sizeof grey);
@@ -182,7 +182,7 @@ static void pfm_is_upside_down_and_little_endian(void **state)
     char *data;
     size_t size;
     struct error err;
-    assert_true(write_pfm(path, values, 2, 3, &err));
+    assert_true(write_pfm(written_path, values, 2, 3, &err));
     load(&data, &size);
     assert_int_equal(size, sizeof expected - 1);
     assert_memory_equal(data, expected, size);
