@@ -127,8 +127,13 @@ static void turn_component(struct mesh *m, const unsigned char *state, const uin
             turn(m, found[i]);
         volume += volume_at(m, found[i], o);
     }
-    for (uint32_t i = 0; i < count && volume < 0; i++)
-        turn(m, found[i]);
+    if (!m->turned)
+        m->turned = mem_zalloc(m->face_count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (volume < 0)
+            turn(m, found[i]);
+        m->turned[m->faces[found[i]]] = (state[found[i]] == TURNED) != (volume < 0);
+    }
 }
 
 static void orient_components(struct mesh *m, const struct sides *s)

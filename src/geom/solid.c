@@ -11,6 +11,7 @@ void mesh_free(struct mesh *m)
     free(m->vertices);
     free(m->triangles);
     free(m->faces);
+    free(m->turned);
     *m = (struct mesh){0};
 }
 

@@ -14,6 +14,7 @@ struct mesh {
     uint32_t *faces;
     uint32_t triangle_count;
     uint32_t face_count;
+    bool *turned; // per face: it was written the other way round and turned; NULL: none was
 };
 
 // A convex solid is also the intersection of the half-spaces nx x + ny y + nz z <= d of its faces

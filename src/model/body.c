@@ -1,5 +1,6 @@
 // body.c - from operations between placed shapes to a body that can be drawn.
 #include "model/builder.h"
+#include "model/products.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -102,12 +103,12 @@ static void put_term(struct emitter *e, struct todo now)
     e->todo[close].count = count;
 }
 
-static void emit(struct emitter *e, uint32_t term)
+static void emit(struct emitter *e, uint32_t term, uint8_t stands)
 {
     static const enum expr_op op_of[] = {[TERM_UNION] = EXPR_UNION,
                                          [TERM_INTERSECTION] = EXPR_INTERSECTION,
                                          [TERM_DIFFERENCE] = EXPR_DIFFERENCE};
-    put_todo(e, (struct todo){.term = term});
+    put_todo(e, (struct todo){.term = term, .stands = stands});
     while (e->todo_count) {
         struct todo now = e->todo[--e->todo_count];
         if (now.term == TERM_NONE)
@@ -119,6 +120,19 @@ static void emit(struct emitter *e, uint32_t term)
     }
 }
 
+// Each shape that takes part in the term, whole.
+static void emit_parts(struct emitter *e, uint32_t term)
+{
+    struct part *parts;
+    uint32_t count;
+    products_parts(&e->b->scene, term, &parts, &count);
+    for (uint32_t i = 0; i < count; i++)
+        emit(e, parts[i].term,
+             parts[i].role == PART_SUBTRACTED ? STANDS_SUBTRACTED | STANDS_PALE : 0);
+    put_token(e, EXPR_UNION, count);
+    free(parts);
+}
+
 // The leaves and their expression.
 static void emit_all(struct emitter *e, const uint32_t *terms, uint32_t term_count)
 {
@@ -127,7 +141,10 @@ static void emit_all(struct emitter *e, const uint32_t *terms, uint32_t term_cou
     if (body->kind == BODY_MAIN)
         body->leaves = s->leaves;
     for (uint32_t i = 0; i < term_count; i++)
-        emit(e, terms[i]);
+        if (e->b->options->mode == MODEL_THROWN_TOGETHER)
+            emit_parts(e, terms[i]);
+        else
+            emit(e, terms[i], 0);
     put_token(e, EXPR_UNION, term_count);
     free(e->todo);
     if (body->kind == BODY_MAIN) {

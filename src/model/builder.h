@@ -55,6 +55,12 @@ char **builder_take_imports(struct builder *b, uint32_t *count); // the caller's
 
 // walk.c: fills b->scene from the tree.
 void builder_walk(struct builder *b);
+// The first node marked with ! in the order of the file, NULL without one.
+const struct csg_node *builder_root(struct builder *b);
+
+// whole.c: fills b->scene with the one object that the whole file evaluates to: solids of one term,
+// or the plate of a flat shape pressed flat.
+void builder_evaluate(struct builder *b);
 
 // body.c: one body of the given terms in union. The main body takes the leaves of the scene.
 void body_build(struct body *out, enum body_kind kind, struct builder *b,

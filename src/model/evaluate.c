@@ -143,10 +143,10 @@ static void visit_parent(struct evaluation *e, const struct csg_node *n,
 }
 
 // A combined node that is in the store already.
-static bool visit_ready(struct evaluation *e, uint64_t key, uint32_t line,
+static bool visit_ready(struct evaluation *e, uint64_t key, const struct csg_node *n,
                         const struct affine *matrix)
 {
-    const struct geometry *g = store_geometry(e->b->store, key, line);
+    const struct geometry *g = store_geometry(e->b->store, key, n->line);
     if (!g)
         return false;
     use_notes(e->b, g);
@@ -155,6 +155,7 @@ static bool visit_ready(struct evaluation *e, uint64_t key, uint32_t line,
     for (uint32_t i = first; i < e->b->scene.leaf_count; i++) {
         struct leaf *leaf = &e->b->scene.leaves[i];
         leaf->to_world = affine_mul(matrix, &leaf->to_world);
+        leaf->place = builder_place(e->b, n);
     }
     e->at += e->digests[e->at].nodes;
     return true;
@@ -173,7 +174,7 @@ static void visit(struct evaluation *e, const struct csg_node *n, const struct l
     }
     if (type->kind == NODE_COMBINED) {
         l.key = key_of(e->digests[e->at].hash, e->details[l.detail]);
-        if (parent && visit_ready(e, l.key, n->line, &e->matrices[l.matrix]))
+        if (parent && visit_ready(e, l.key, n, &e->matrices[l.matrix]))
             return;
     }
     if (type->kind == NODE_UNKNOWN || type->kind == NODE_UNSUPPORTED) {
@@ -248,6 +249,8 @@ static void leave(struct evaluation *e)
                          .first_term = l.first_term};
     if (l.type->kind == NODE_COMBINED) {
         l.type->combine(&o, &out);
+        for (uint32_t i = l.first_leaf; i < e->b->scene.leaf_count; i++)
+            e->b->scene.leaves[i].place = builder_place(e->b, l.node);
         if (e->level_count) {
             keep(e, &l, &out);
             operands_move(&o, &e->matrices[e->levels[e->level_count - 1].matrix]);
@@ -348,6 +351,16 @@ const struct geometry *evaluate_node(struct builder *b, const struct csg_node *n
     if (g)
         use_notes(b, g);
     return g;
+}
+
+bool evaluate_once(struct builder *b, const struct csg_node *n, struct geometry *out)
+{
+    struct digest *digests = digest_tree(n);
+    *out = (struct geometry){0};
+    bool done = evaluate(b, n, DETAIL_DEFAULT, digests, out);
+    use_notes(b, out);
+    free(digests);
+    return done;
 }
 
 bool evaluates_flat(const struct csg_node *root)

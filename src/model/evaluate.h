@@ -7,6 +7,9 @@
 // While b->collecting it is only noted for evaluate_collected, and NULL comes back.
 const struct geometry *evaluate_node(struct builder *b, const struct csg_node *n, struct detail d);
 
+// What a node evaluates to, made anew; told as evaluate_node tells it. False when it was cancelled.
+bool evaluate_once(struct builder *b, const struct csg_node *n, struct geometry *out);
+
 // Would the node be a flat shape? Told by the first leaf of it that is anything.
 bool evaluates_flat(const struct csg_node *n);
 

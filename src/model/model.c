@@ -75,23 +75,37 @@ static void walk_tree(struct builder *b, struct messages *messages)
     builder_walk(b);
     b->collecting = false;
     b->messages = messages;
-    if (!b->job_count) {
+    bool whole = b->options->mode == MODEL_RENDER;
+    if (!b->job_count && !whole) {
         messages_append(messages, &first);
     } else {
         scene_free(&b->scene);
         evaluate_collected(b);
         b->unsupported = 0;
         b->warned.name = NULL;
-        builder_walk(b);
+        if (whole)
+            builder_evaluate(b);
+        else
+            builder_walk(b);
     }
     messages_free(&first);
+}
+
+// What the geometry of the whole is, told before the bodies take the scene over.
+static void describe(struct model *m, const struct scene *s)
+{
+    const struct term *root = s->root < TERM_EMPTY ? &s->terms[s->root] : NULL;
+    m->single = root && root->op == TERM_LEAF;
+    if (m->single && s->leaves[root->left].flat)
+        m->flat = &s->leaves[root->left].solid->outline;
 }
 
 void model_build(struct model *out, const struct csg_tree *tree, struct solid_store *store,
                  const struct model_options *options, struct messages *messages)
 {
     const char *name = tree->file ? tree->file : "-";
-    *out = (struct model){.bounds = BOX_EMPTY, .store = store, .file = mem_strdup(name)};
+    *out = (struct model){
+        .mode = options->mode, .bounds = BOX_EMPTY, .store = store, .file = mem_strdup(name)};
     struct builder b = {.tree = tree,
                         .options = options,
                         .file = out->file,
@@ -100,6 +114,8 @@ void model_build(struct model *out, const struct csg_tree *tree, struct solid_st
     store_join(store);
     store_count_from(store);
     walk_tree(&b, messages);
+    if (options->mode == MODEL_RENDER)
+        describe(out, &b.scene);
     thicken_sheets(&b.scene, options->epsilon);
 
     // Tables borrow from their bodies, so the array must not move once it is being filled.

@@ -22,6 +22,13 @@ struct leaf {
     struct box box;         // in the world
 };
 
+// What of a model there is to see.
+enum model_mode {
+    MODEL_PREVIEW,         // the solid picture, with colours, background objects and highlights
+    MODEL_RENDER,          // the geometry: one object without colours, flat or solid
+    MODEL_THROWN_TOGETHER, // each shape that takes part, whole
+};
+
 enum body_kind { BODY_MAIN, BODY_BACKGROUND, BODY_HIGHLIGHT };
 
 // Leaves and one expression over them, drawn on its own. Leaf numbers are those of the file's
@@ -41,7 +48,10 @@ struct model_stats {
 };
 
 struct model {
-    struct body *bodies; // in drawing order: main first, then backgrounds, then highlights
+    enum model_mode mode;
+    bool single; // RENDER: the model is one shape, nothing was united, cut or intersected
+    const struct outline *flat; // RENDER: the shape that the model is; NULL for solids
+    struct body *bodies;        // in drawing order: main first, then backgrounds, then highlights
     uint32_t body_count;
     struct box bounds; // of the intersected leaves of all bodies, for --viewall as OpenSCAD does it
     struct model_stats stats;
@@ -52,6 +62,7 @@ struct model {
 };
 
 struct model_options {
+    enum model_mode mode;
     double epsilon;  // filter in mm across the faces; negative: the default for the model's extent
     bool share, roi; // value sharing and regions of interest; true unless the bench compares
     // Where imported files are looked for that are not beside the .csg.

@@ -231,7 +231,8 @@ static void visit_import(struct walk *w, const struct csg_node *n)
 
 static void visit(struct walk *w, const struct csg_node *n)
 {
-    if (n->modifiers & CSG_DISABLE)
+    bool rendered = w->b->options->mode == MODEL_RENDER; // then it is only to be collected
+    if (n->modifiers & (rendered ? CSG_DISABLE | CSG_BACKGROUND : CSG_DISABLE))
         return;
     const struct node_type *type = type_of(w, n);
     switch (type->kind) {
@@ -241,7 +242,8 @@ static void visit(struct walk *w, const struct csg_node *n)
         visit_parent(w, n, type);
         break;
     case NODE_RENDER:
-        if (w->frames[w->frame_count - 1].render == RENDER_OUTSIDE && evaluates_flat(n))
+        if (!rendered && w->frames[w->frame_count - 1].render == RENDER_OUTSIDE &&
+            evaluates_flat(n))
             visit_geometry(w, n, type);
         else
             visit_parent(w, n, type);
@@ -250,11 +252,15 @@ static void visit(struct walk *w, const struct csg_node *n)
         visit_shape(w, n, type);
         break;
     case NODE_FLAT:
+        if (!rendered)
+            visit_geometry(w, n, type);
+        break;
     case NODE_COMBINED:
         visit_geometry(w, n, type);
         break;
     case NODE_IMPORT:
-        visit_import(w, n);
+        if (!rendered)
+            visit_import(w, n);
         break;
     case NODE_UNSUPPORTED:
         builder_warn_left_out(w->b, n, type);
@@ -282,8 +288,7 @@ static void leave(struct walk *w)
     fold(w, term);
 }
 
-// The first node marked with ! in the order of the file, NULL without one.
-static const struct csg_node *find_root(struct builder *b)
+const struct csg_node *builder_root(struct builder *b)
 {
     struct csg_iterator it = {0};
     const struct csg_node *n, *root = NULL;
@@ -313,7 +318,7 @@ void builder_walk(struct builder *b)
     w.colours[0] = (struct colour){{-1, -1, -1, -1}};
     w.details[0] = DETAIL_DEFAULT;
 
-    const struct csg_node *root = find_root(b);
+    const struct csg_node *root = builder_root(b);
     push_frame(&w,
                (struct frame){.next = b->tree->first, .term = TERM_NONE, .operation = TERM_UNION});
     if (root) {

@@ -30,10 +30,21 @@ static void find_parts(struct body_shading *out, const struct expr *e)
     free(part);
 }
 
-static struct material material_of(const struct leaf *leaf, enum body_kind kind,
-                                   const struct scheme *scheme)
+// What a leaf without a colour of its own has.
+static struct rgb stock_colour(const struct model *m, const struct leaf *leaf,
+                               const struct scheme *scheme)
 {
-    struct rgb stock = leaf->subtracted ? scheme->back : scheme->front;
+    if (m->flat)
+        return scheme->flat;
+    if (m->mode == MODEL_RENDER && !m->single)
+        return leaf->subtracted ? scheme->mesh_back : scheme->mesh_front;
+    return leaf->subtracted ? scheme->back : scheme->front;
+}
+
+static struct material material_of(const struct model *m, const struct leaf *leaf,
+                                   enum body_kind kind, const struct scheme *scheme)
+{
+    struct rgb stock = stock_colour(m, leaf, scheme);
     float c[4] = {(float)stock.r / 255, (float)stock.g / 255, (float)stock.b / 255, 1};
     if (kind == BODY_BACKGROUND)
         memcpy(c, background_colour, sizeof c);
@@ -43,7 +54,8 @@ static struct material material_of(const struct leaf *leaf, enum body_kind kind,
         if (leaf->colour[i] >= 0)
             c[i] = leaf->colour[i];
     uint8_t alpha = c[3] < 1 ? (uint8_t)(c[3] * 255 + 0.5f) : 255;
-    return (struct material){.r = c[0], .g = c[1], .b = c[2], .alpha = alpha};
+    return (struct material){
+        .r = c[0], .g = c[1], .b = c[2], .alpha = alpha, .unlit = m->flat != NULL};
 }
 
 void shader_init(struct shader *out, const struct model *m, const struct scheme *scheme)
@@ -56,13 +68,15 @@ void shader_init(struct shader *out, const struct model *m, const struct scheme 
         shading->materials = mem_alloc((body->leaf_count + 1) * sizeof *shading->materials);
         shading->opaque = true;
         for (uint32_t i = 0; i < body->leaf_count; i++) {
-            shading->materials[i] = material_of(&body->leaves[i], body->kind, scheme);
+            shading->materials[i] = material_of(m, &body->leaves[i], body->kind, scheme);
             if (shading->materials[i].alpha < 255 && body->expr.leaf_node[i] != EXPR_NONE)
                 shading->opaque = false;
         }
         find_parts(shading, &body->expr);
     }
     normals_init(&out->normals, m);
+    if (m->mode == MODEL_THROWN_TOGETHER)
+        facing_init(&out->facing, m);
 }
 
 void shader_free(struct shader *s)
@@ -72,6 +86,7 @@ void shader_free(struct shader *s)
             free(s->bodies[b].materials);
     free(s->bodies);
     normals_free(&s->normals);
+    facing_free(&s->facing);
     *s = (struct shader){0};
 }
 
@@ -83,12 +98,22 @@ struct light light_of(const struct rays *rays)
         ahead = vec3_scale(ahead, -1);
     // From the upper left behind the viewer: (-1, 1, 1) in the viewer's right, up and backwards.
     struct vec3 sum = vec3_add(vec3_add(right, down), ahead);
-    return (struct light){vec3_normalized(vec3_scale(sum, -1)), ahead};
+    return (struct light){vec3_normalized(vec3_scale(sum, -1)), ahead, viewpoint_of(rays)};
 }
 
 static uint8_t to_byte(double v)
 {
     return v < 1 ? (uint8_t)(255 * v + 0.5) : 255;
+}
+
+// Of shapes thrown together, what turns its back is told by its colour.
+static bool shows_back(const struct shader *s, uint32_t body, const struct light *light,
+                       uint32_t leaf, uint32_t face)
+{
+    const struct body *b = &s->model->bodies[body];
+    if (s->model->mode != MODEL_THROWN_TOGETHER || b->kind != BODY_MAIN)
+        return false;
+    return face == SURFACE_CAP || facing_back(&s->facing, &b->leaves[leaf], face, &light->from);
 }
 
 struct rgba shade_face(const struct shader *s, uint32_t body, const struct light *light,
@@ -98,7 +123,9 @@ struct rgba shade_face(const struct shader *s, uint32_t body, const struct light
     const struct material *m = &s->bodies[body].materials[leaf];
     struct vec3 normal =
         face == SURFACE_CAP ? light->view_axis : normals_find(&s->normals, placed, face);
-    double factor = AMBIENT + fabs(vec3_dot(normal, light->direction));
+    double factor = m->unlit ? 1 : AMBIENT + fabs(vec3_dot(normal, light->direction));
+    if (shows_back(s, body, light, leaf, face))
+        return (struct rgba){to_byte(factor), 0, to_byte(factor), 255};
     return (struct rgba){to_byte((double)m->r * factor), to_byte((double)m->g * factor),
                          to_byte((double)m->b * factor), m->alpha};
 }

@@ -1,6 +1,7 @@
 // shade.h - from surfaces to colours: materials, OpenSCAD's light, transparency.
 #pragma once
 #include "model/model.h"
+#include "render/facing.h"
 #include "render/normals.h"
 #include "render/rays.h"
 #include "render/scheme.h"
@@ -13,6 +14,7 @@ struct rgba {
 struct material {
     float r, g, b; // 0..1, may exceed it
     uint8_t alpha;
+    bool unlit;
     bool alone;    // the leaf is neither cut nor intersected: its far side shows through it
     uint32_t part; // number of the member of the body's outermost union that the leaf stands in
 };
@@ -29,14 +31,16 @@ struct shader {
     const struct scheme *scheme;
     struct body_shading *bodies; // per body of the model
     struct normals normals;
+    struct facing facing; // THROWN_TOGETHER
 };
 
 void shader_init(struct shader *out, const struct model *m, const struct scheme *scheme);
 void shader_free(struct shader *s); // leaves {0}
 
-// The light moves with the viewer. Both are unit vectors of the world.
+// The light moves with the viewer. Directions are unit vectors of the world.
 struct light {
     struct vec3 direction, view_axis;
+    struct viewpoint from;
 };
 struct light light_of(const struct rays *rays);
 
