@@ -11,8 +11,9 @@ set(may_type base geom)
 set(may_model base csg geom io type hcsg)
 set(may_render base geom hcsg model)
 set(may_slice base geom io model render)
-set(may_app base csg geom hcsg scad io type model render slice)
-set(folders base csg geom hcsg scad io type model render slice app)
+set(may_command base csg geom hcsg scad io type model render slice)
+set(may_app base csg geom hcsg scad io type model render slice command)
+set(folders base csg geom hcsg scad io type model render slice command app)
 
 # Libraries with few homes: a pattern of the header, then the paths that may include it.
 set(libraries glfw epoxy glu egl imgui uv clipper cgal qhull zip expat harfbuzz)

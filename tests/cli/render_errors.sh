@@ -35,7 +35,7 @@ expect 1 'no output; give -o' a.csg
 expect 1 'expected FILE after it' a.csg -o
 expect 1 'unknown option --imagesize; did you mean --imgsize?' --imagesize=3,3 -o out.png a.csg
 expect 1 'unknown option -z' -z -o out.png a.csg
-expect 1 'only PNG, STL, OFF and DXF can be written, not .jpg' -o out.jpg a.csg
+expect 1 'out.jpg: cannot write .jpg files, only png, stl, off or dxf' -o out.jpg a.csg
 for size in 0,5 5,0 -1,5 5 5,5,5 a,b '' 1e3,5 40000,1 32768,32768 99999999999999999999,5; do
     expect 1 '--imgsize: expected' "--imgsize=$size" -o out.png a.csg
 done
@@ -68,6 +68,9 @@ wait
 # Output
 expect 2 'none/out.png: No such file' -o none/out.png a.csg
 expect 2 'folder: ' -o folder a.csg
+expect 2 'none/b.png: No such file' -o b.png -o none/b.png -o c.png a.csg
+cmp -s b.png c.png || fault 'several outputs: not the same picture twice'
+rm -f b.png c.png
 [ -w /dev/full ] && expect 2 '/dev/full: No space left' -o /dev/full a.csg
 "$render" -o - a.csg >&- 2>stderr
 [ $? -eq 2 ] || fault 'closed standard output: wrong exit code'

@@ -1,0 +1,98 @@
+// command.c - hcsg-render from its checked options to its exit code.
+#include "command/command.h"
+
+#include "base/clock.h"
+#include "command/input.h"
+#include "command/output.h"
+#include "command/summary.h"
+
+#include <string.h>
+
+int command_fail(const struct error *err, int code)
+{
+    fprintf(stderr, "hcsg-render: %s\n", err->text);
+    return code;
+}
+
+// Seconds since *start, which moves to now.
+static double lap(double *start)
+{
+    double before = *start;
+    *start = clock_seconds();
+    return *start - before;
+}
+
+static void build(struct model *out, const struct request *r, const struct csg_tree *tree,
+                  struct messages *messages)
+{
+    struct solid_store *store = solid_store_new();
+    struct model_options options = MODEL_DEFAULTS;
+    options.epsilon = r->epsilon;
+    options.import_folders = r->import_folders.items;
+    options.import_folder_count = r->import_folders.count;
+    model_build(out, tree, store, &options, messages);
+    solid_store_delete(store);
+}
+
+// One output that cannot be written does not keep the others from it.
+static int write_outputs(const struct request *r, const struct drawn *d, const struct model *m)
+{
+    int code = EXIT_FINE;
+    struct error err;
+    for (uint32_t i = 0; i < r->output_count; i++)
+        if (!output_write(&r->outputs[i], d, m, &err))
+            code = command_fail(&err, EXIT_OUTPUT);
+    return code;
+}
+
+static int print_summary(const struct summary *s)
+{
+    bool taken = false; // standard output, by an output
+    for (uint32_t i = 0; i < s->request->output_count; i++)
+        taken |= strcmp(s->request->outputs[i].path, "-") == 0;
+    summary_print(taken ? stderr : stdout, s);
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return EXIT_FINE;
+    struct error err;
+    error_set(&err, "standard output: cannot write");
+    return command_fail(&err, EXIT_OUTPUT);
+}
+
+static int produce(const struct request *r, const struct model *m, const struct messages *messages,
+                   struct timing *times, double *lap_start)
+{
+    struct error err;
+    struct drawn drawn = {0};
+    if (request_draws(r) && !drawn_make(&drawn, r, m, &err))
+        return command_fail(&err, EXIT_INPUT);
+    times->draw = lap(lap_start);
+    int code = write_outputs(r, &drawn, m);
+    times->write = lap(lap_start);
+    if (code == EXIT_FINE && r->summary)
+        code = print_summary(&(struct summary){r, m, messages, &drawn, *times});
+    drawn_free(&drawn);
+    return code;
+}
+
+int command_run(const struct request *r)
+{
+    int code = EXIT_INPUT;
+    struct messages messages = {0};
+    struct input input = {0};
+    struct model model = {0};
+    struct timing times = {0};
+    double start = clock_seconds();
+
+    bool read = input_read(&input, r, &messages);
+    times.read = lap(&start);
+    if (read)
+        build(&model, r, &input.tree, &messages);
+    times.build = lap(&start);
+    messages_print(&messages, stderr);
+    if (read && !(r->hard_warnings && messages.warnings + messages.errors))
+        code = produce(r, &model, &messages, &times, &start);
+    model_free(&model);
+    input_free(&input);
+    messages_free(&messages);
+    return code;
+}

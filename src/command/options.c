@@ -1,0 +1,66 @@
+// options.c - the command line of hcsg-render as it was given.
+#include "command/options.h"
+
+#include "base/mem.h"
+
+enum { SIDE_MOST = 32768 };
+
+enum options_result given_parse(struct given *out, int argc, char **argv, struct error *err)
+{
+    *out = (struct given){.operands = argv + 1,
+                          .size = {512, 512},
+                          .scheme = "Cornfield",
+                          .epsilon = -1,
+                          .megabytes = 256};
+    const struct option options[] = {
+        {"output", 'o', OPTION_LIST, "FILE",
+         "write that file, what it is follows from its extension;\n"
+         "- is standard output; may be given several times",
+         &out->outputs, 0, 0},
+        {"export-format", 0, OPTION_TEXT, "png|stl|off|dxf",
+         "what to write, whatever the extension of FILE says: a picture, or\n"
+         "the vertices of a model that is one object without booleans",
+         &out->export_format, 0, 0},
+        {"imgsize", 0, OPTION_SIZE, "W,H", "size of the picture in pixels (default 512,512)",
+         out->size, 1, SIDE_MOST},
+        {"camera", 0, OPTION_TEXT, "NUMBERS",
+         "tx,ty,tz,rx,ry,rz,distance or eyex,eyey,eyez,centrex,centrey,centrez;\n"
+         "without it the whole model is shown, as by --viewall --autocenter",
+         &out->camera, 0, 0},
+        {"viewall", 0, OPTION_FLAG, NULL, "choose the distance so that the whole model shows",
+         &out->viewall, 0, 0},
+        {"autocenter", 0, OPTION_FLAG, NULL, "look at the centre of the model", &out->autocenter, 0,
+         0},
+        {"projection", 0, OPTION_TEXT, "o|p", "ortho or perspective (default)", &out->projection, 0,
+         0},
+        {"colorscheme", 0, OPTION_TEXT, "NAME", "Cornfield (default) or another of OpenSCAD's",
+         &out->scheme, 0, 0},
+        {"device", 0, OPTION_TEXT, "auto|cpu", "what draws", &out->device, 0, 0},
+        {"threads", 0, OPTION_COUNT, "N", "threads to draw with; 0: one per processor (default)",
+         &out->threads, 0, 256},
+        {"eps", 0, OPTION_NUMBER, "MM",
+         "ignore solid and gaps thinner than this; 0: none\n"
+         "(default 0.001; 1e-5 of an extent below 100, 2e-6 of one above 500)",
+         &out->epsilon, 0, 1e9},
+        {"memory", 0, OPTION_COUNT, "MB",
+         "memory to draw with, beside model and picture (default 256)", &out->megabytes, 1,
+         1 << 20},
+        {"import-dir", 0, OPTION_LIST, "DIR",
+         "look there for imported files that are not beside FILE;\nmay be given several times",
+         &out->import_folders, 0, 0},
+        {"hardwarnings", 0, OPTION_FLAG, NULL, "make no picture when there is a warning",
+         &out->hard_warnings, 0, 0},
+        {"summary", 0, OPTION_FLAG, NULL, "print numbers about model and picture", &out->summary, 0,
+         0},
+    };
+    const struct program program = {
+        .name = "hcsg-render",
+        .version = HCSG_VERSION,
+        .summary = "Draws an OpenSCAD model, a .csg or through openscad a .scad, as a PNG picture, "
+                   "or writes the geometry of one object.",
+        .operands = "FILE",
+        .options = options,
+        .option_count = array_count(options),
+    };
+    return options_parse(&program, argc, argv, &out->operand_count, err);
+}

@@ -1,0 +1,17 @@
+// options.h - the command line of hcsg-render as it was given.
+#pragma once
+#include "base/options.h"
+
+struct given {
+    char **operands;
+    int operand_count;
+    struct option_list outputs;
+    const char *export_format, *camera, *projection, *scheme, *device;
+    int size[2];
+    bool viewall, autocenter, summary, hard_warnings;
+    uint32_t threads, megabytes;
+    double epsilon;
+    struct option_list import_folders;
+};
+
+enum options_result given_parse(struct given *out, int argc, char **argv, struct error *err);

@@ -1,0 +1,63 @@
+// output.c - what is asked for, drawn and written.
+#include "command/output.h"
+
+#include "io/write_png.h"
+
+bool request_draws(const struct request *r)
+{
+    bool draws = r->summary;
+    for (uint32_t i = 0; i < r->output_count; i++)
+        draws |= r->outputs[i].format->kind == OUTPUT_PICTURE;
+    return draws;
+}
+
+static bool place_camera(struct camera *c, const struct request *r, const struct model *m,
+                         struct error *err)
+{
+    *c = r->camera;
+    if (r->autocenter)
+        camera_autocenter(c, m->bounds);
+    if (r->viewall)
+        camera_viewall(c, m->bounds);
+    if (c->distance > 0)
+        return true;
+    error_set(err, "--camera: the distance must be above 0");
+    return false;
+}
+
+bool drawn_make(struct drawn *out, const struct request *r, const struct model *m,
+                struct error *err)
+{
+    struct camera camera;
+    if (!place_camera(&camera, r, m, err))
+        return false;
+    *out = (struct drawn){.camera = camera};
+    struct rays rays = camera_rays(&camera, r->width, r->height, m->bounds);
+    const struct render_settings settings = {
+        .epsilon = model_epsilon(m, r->epsilon), .threads = r->threads, .memory = r->memory};
+    struct shader shader;
+    struct cpu_device *device = cpu_device_new();
+    shader_init(&shader, m, r->scheme);
+    picture_draw(&out->picture, device, &shader, &rays, &settings, &out->stats);
+    shader_free(&shader);
+    cpu_device_delete(device);
+    return true;
+}
+
+void drawn_free(struct drawn *d)
+{
+    picture_free(&d->picture);
+    *d = (struct drawn){0};
+}
+
+bool output_write(const struct output *o, const struct drawn *d, const struct model *m,
+                  struct error *err)
+{
+    switch (o->format->kind) {
+    case OUTPUT_PICTURE:
+        return write_png(o->path, d->picture.rgb, d->picture.width, d->picture.height, err);
+    case OUTPUT_GEOMETRY:
+        break;
+    }
+    return model_export(m, o->format->geometry, o->path, err);
+}

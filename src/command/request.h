@@ -1,0 +1,29 @@
+// request.h - what the options mean, checked.
+#pragma once
+#include "command/format.h"
+#include "command/options.h"
+#include "render/camera.h"
+#include "render/scheme.h"
+
+struct output {
+    const char *path; // "-": standard output
+    const struct output_format *format;
+};
+
+struct request {       // borrows from the command line
+    const char *input; // "-": standard input
+    struct output outputs[OPTION_LIST_MOST];
+    uint32_t output_count;
+    int width, height;
+    struct camera camera;
+    bool viewall, autocenter;
+    const struct scheme *scheme;
+    double epsilon; // negative: the default for the model
+    uint32_t threads;
+    size_t memory;
+    struct option_list import_folders;
+    bool hard_warnings;
+    bool summary;
+};
+
+bool request_make(struct request *out, const struct given *given, struct error *err);
