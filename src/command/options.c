@@ -33,6 +33,8 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
          0},
         {"projection", 0, OPTION_TEXT, "o|p", "ortho or perspective (default)", &out->projection, 0,
          0},
+        {"view", 0, OPTION_TEXT, "NAMES", "also draw these: axes, scales (on axes), crosshairs",
+         &out->view, 0, 0},
         {"colorscheme", 0, OPTION_TEXT, "NAME", "Cornfield (default) or another of OpenSCAD's",
          &out->scheme, 0, 0},
         {"device", 0, OPTION_TEXT, "auto|cpu", "what draws", &out->device, 0, 0},

@@ -6,7 +6,7 @@ struct given {
     char **operands;
     int operand_count;
     struct option_list outputs;
-    const char *export_format, *camera, *projection, *scheme, *device;
+    const char *export_format, *camera, *projection, *view, *scheme, *device;
     int size[2];
     bool viewall, autocenter, summary, hard_warnings;
     uint32_t threads, megabytes;

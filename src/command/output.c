@@ -35,10 +35,18 @@ bool drawn_make(struct drawn *out, const struct request *r, const struct model *
     struct rays rays = camera_rays(&camera, r->width, r->height, m->bounds);
     const struct render_settings settings = {
         .epsilon = model_epsilon(m, r->epsilon), .threads = r->threads, .memory = r->memory};
+    const struct overlay overlay = {.scheme = r->scheme,
+                                    .centre = camera.centre,
+                                    .distance = camera.distance,
+                                    .axes = r->view.axes,
+                                    .scales = r->view.scales,
+                                    .crosshairs = r->view.crosshairs};
     struct shader shader;
     struct cpu_device *device = cpu_device_new();
     shader_init(&shader, m, r->scheme);
+    out->picture.overlay = &overlay;
     picture_draw(&out->picture, device, &shader, &rays, &settings, &out->stats);
+    out->picture.overlay = NULL;
     shader_free(&shader);
     cpu_device_delete(device);
     return true;

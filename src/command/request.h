@@ -2,6 +2,7 @@
 #pragma once
 #include "command/format.h"
 #include "command/options.h"
+#include "command/view.h"
 #include "render/camera.h"
 #include "render/scheme.h"
 
@@ -17,6 +18,7 @@ struct request {       // borrows from the command line
     int width, height;
     struct camera camera;
     bool viewall, autocenter;
+    struct view_options view;
     const struct scheme *scheme;
     double epsilon; // negative: the default for the model
     uint32_t threads;

@@ -34,7 +34,9 @@ static void reserve(struct picture *p, int width, int height)
 {
     if (p->rgb && p->width == width && p->height == height)
         return;
+    const struct overlay *overlay = p->overlay;
     picture_free(p);
+    p->overlay = overlay;
     size_t n = (size_t)width * (size_t)height;
     struct surface_image *images[] = {&p->surface, &p->scratch};
     for (size_t i = 0; i < array_count(images); i++)
@@ -283,6 +285,9 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
     if (!begun)
         parallel_for(((uint32_t)p->height + ROWS - 1) / ROWS, settings->threads, clear_rows,
                      &(struct drawing){.picture = p, .shader = shader});
+    const struct canvas canvas = {p->width, p->height, p->rgb, p->depth};
+    if (p->overlay && !begun)
+        overlay_draw_among(p->overlay, rays, &canvas);
     for (uint32_t b = 0; b < model->body_count; b++) {
         const struct body *body = &model->bodies[b];
         bool main = body->kind == BODY_MAIN;
@@ -303,5 +308,9 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
             cpu_spans(device, body, rays, settings, blend_block, &d, &one);
         }
         render_stats_add(stats, &one);
+        if (p->overlay && d.first) // the body is opaque and hides afterwards what is behind it
+            overlay_draw_among(p->overlay, rays, &canvas);
     }
+    if (p->overlay)
+        overlay_draw_over(p->overlay, rays, &canvas);
 }

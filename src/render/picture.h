@@ -2,6 +2,7 @@
 // other.
 #pragma once
 #include "render/device.h"
+#include "render/overlay.h"
 #include "render/shade.h"
 
 struct picture { // {0} is valid; buffers are kept from drawing to drawing
@@ -10,6 +11,7 @@ struct picture { // {0} is valid; buffers are kept from drawing to drawing
     struct surface_image surface; // nearest surface of the main body, for picking
     float *depth; // surface.depth: of the nearest surface of all bodies, or INFINITY
     struct surface_image scratch;
+    const struct overlay *overlay; // is drawn with the bodies; borrowed, NULL: none
 };
 
 // `settings->epsilon` is also the depth within which a highlight counts as lying on the model.

@@ -71,6 +71,14 @@ done
 [ "$(identify -format '%wx%h %[bit-depth]' top.png)" = '300x200 8' ] || fault 'top: wrong size'
 [ "$(colours top.png | wc -l)" -eq 2 ] || fault 'top: not two colours'
 
+# Axes are black, arms of the tripod red, green and blue; crosshairs are dark red.
+"$render" --view=axes,cubes,crosshairs -o view.png empty.csg 2>stderr || fault 'view failed'
+[ "$(cat stderr)" = "hcsg-render: --view: 'cubes' is ignored; there are axes, crosshairs, scales" ] ||
+    fault "view: says '$(cat stderr)'"
+for colour in 0,0,0 255,0,0 0,255,0 0,0,255 128,0,0; do
+    colours view.png | grep -q " $colour$" || fault "view: lacks $colour"
+done
+
 "$render" --summary cut.csg >summary || fault 'summary failed'
 grep -q '^Leaves: *2$' summary || fault 'summary: leaves'
 grep -q 'Max:  10, 10, 10' summary || fault 'summary: box'
