@@ -19,7 +19,7 @@ enum { PIECES_MOST = 64, PIXELS_MOST = 16384, SLOPES = 1024 };
 #define SLOPE_UNIT  0x1p32
 
 struct worker {
-    int64_t covered, length, moment[3], slopes, crossings;
+    int64_t covered, length, moment[3], slopes, thin, crossings;
     struct { // |n| along the axis of faces met lately
         uint32_t leaf, face;
         double slope;
@@ -77,18 +77,27 @@ static int64_t whole(double v, double unit)
     return (int64_t)rint(v * unit);
 }
 
+// Between two faces that lie `distance` apart on a ray: of their slopes, what counts as thin.
+static double thin(const struct lattice_run *r, double distance, double a, double b)
+{
+    return distance * fmax(a, b) < 2 * r->target->settings.epsilon ? a + b : 0;
+}
+
 static void take_ray(const struct lattice_run *r, struct worker *w, double u, double v,
                      const struct span *spans, uint32_t count)
 {
-    double length = 0, moment = 0, slopes = 0;
+    double length = 0, moment = 0, slopes = 0, thins = 0, last = 0, last_slope = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct span *s = &spans[i];
-        double thick = ((double)s->leave - (double)s->enter) / r->size;
-        double middle = ((double)s->leave + (double)s->enter) / (2 * r->size);
-        length += thick;
-        moment += thick * middle;
-        slopes += crossing(r, w, s->enter_leaf, s->enter_face) +
-                  crossing(r, w, s->leave_leaf, s->leave_face);
+        double enter = (double)s->enter, leave = (double)s->leave;
+        double in = crossing(r, w, s->enter_leaf, s->enter_face);
+        double out = crossing(r, w, s->leave_leaf, s->leave_face);
+        length += (leave - enter) / r->size;
+        moment += (leave - enter) * (leave + enter) / (2 * r->size * r->size);
+        slopes += in + out;
+        thins += thin(r, leave - enter, in, out) + (i ? thin(r, enter - last, last_slope, in) : 0);
+        last = leave;
+        last_slope = out;
     }
     w->covered++;
     w->length += whole(length, LENGTH_UNIT);
@@ -96,6 +105,7 @@ static void take_ray(const struct lattice_run *r, struct worker *w, double u, do
     w->moment[r->wide] += whole(length * u / r->size, LENGTH_UNIT);
     w->moment[r->high] += whole(length * v / r->size, LENGTH_UNIT);
     w->slopes += whole(slopes, SLOPE_UNIT);
+    w->thin += whole(thins, SLOPE_UNIT);
 }
 
 static void take_block(void *context, uint32_t worker, const struct span_block *b)
@@ -165,6 +175,7 @@ static void finish(struct lattice_sums *out, const struct lattice_run *r, uint32
         sum.covered += w->covered;
         sum.length += w->length;
         sum.slopes += w->slopes;
+        sum.thin += w->thin;
         sum.crossings += w->crossings;
         for (int k = 0; k < 3; k++)
             sum.moment[k] += w->moment[k];
@@ -175,6 +186,7 @@ static void finish(struct lattice_sums *out, const struct lattice_run *r, uint32
     out->moment = (struct vec3){moment * (double)sum.moment[0], moment * (double)sum.moment[1],
                                 moment * (double)sum.moment[2]};
     out->area = out->cell * (double)sum.slopes / SLOPE_UNIT;
+    out->thin = out->cell * (double)sum.thin / SLOPE_UNIT;
     out->crossings = (double)sum.crossings;
 }
 

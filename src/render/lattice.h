@@ -28,6 +28,7 @@ struct lattice_sums {
     double volume;      // cells times lengths
     struct vec3 moment; // of the volume, about the centre of the box
     double area;        // cells times |n| along the axis over crossings: of faces, their share
+    double thin;        // of it, faces around solid or a gap thinner than twice epsilon
     double crossings;   // their number
     double effort;      // rays and crossings looked at
     uint64_t open_rays; // on which a mesh did not close

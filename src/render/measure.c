@@ -142,7 +142,7 @@ static void evaluate_solid(struct measure *out, const struct lattice_target *t,
                            const struct level *level, const struct missed *missed)
 {
     struct vec3 size = vec3_sub(t->box.max, t->box.min);
-    double values[ALL], rounding = 0;
+    double values[ALL], rounding = 0, thin = 0;
     out->area = (struct measured){0};
     for (int axis = 0; axis < AXES; axis++) {
         double shares[LATTICES];
@@ -150,15 +150,16 @@ static void evaluate_solid(struct measure *out, const struct lattice_target *t,
             const struct lattice_sums *s = &level->sums[axis][k];
             values[axis * LATTICES + k] = s->volume;
             shares[k] = s->area;
+            thin += s->thin / LATTICES;
             rounding += s->crossings * s->cell * DEPTH_ROUNDING * part(size, axis) / ALL;
         }
         struct measured share = estimate(shares, LATTICES);
         out->area.value += share.value;
         out->area.bound = hypot(out->area.bound, share.bound);
     }
-    out->area.bound += missed->area;
+    out->area.bound += missed->area + 2 * thin;
     out->volume = estimate(values, ALL);
-    double unseen = rounding + missed->volume;
+    double unseen = rounding + missed->volume + thin * t->settings.epsilon;
     for (int axis = 0; axis < AXES; axis++) {
         struct measured c = centre_of(level, axis, out->volume.value, values);
         // What was not seen pulls with its share of all, from within the box.

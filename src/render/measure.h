@@ -11,14 +11,18 @@
 // A lattice whose origin is random within its cell is right on average for any solid, whatever its
 // resolution. Six of them are thrown along each axis, turned by angles of irrational slope, so that
 // no row of rays runs along edges; how much the sums of the six differ among each other tells how
-// far off their mean may be. The bound is BOUND_FACTOR standard errors of that mean, plus what
-// depths lose by rounding, plus all of every leaf that no ray met and whose box is so small that it
-// could have been missed. It is a matter of chance, with odds of about one to a million against it,
-// not a proof. The number of rays grows fourfold until the bounds of volume and area are as asked
-// for or the effort is spent: what is reported is what was reached.
+// far off their mean may be. The bound is ten standard errors of that mean, which is about how far
+// one of a million is off, and
+// - what depths lose by rounding;
+// - all of each leaf that no ray met and whose box is so small that it could have been missed;
+// - for what the filter of thin intervals takes off sharp edges: as many crossings as there are
+//   with solid or gaps of one to two epsilon, since in a wedge the ones below epsilon are as many;
+//   twice that, for the spread.
+// It rests on chance, and is no proof. The number of rays grows fourfold until the bounds of volume
+// and area are as asked for or the effort is spent; what is reported is what was reached.
 //
-// Measured is what is drawn: the main body, without what is marked %, solid and gaps thinner than
-// epsilon left out. Numbers are the same for any number of threads.
+// Measured is what is drawn: the main body, without what is marked %. Numbers are the same for any
+// number of threads.
 #pragma once
 #include "render/device.h"
 
