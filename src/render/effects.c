@@ -95,7 +95,9 @@ static float taken(const struct job *j, int x, int y, struct point here, uint32_
         float height = height_above(normal, here, there);
         float distance =
             square(there.x - here.x) + square(there.y - here.y) + square(there.z - here.z);
-        float near = 1 - distance / square(j->radius);
+        // Of what stands higher only the top is seen; by one radius it may reach down.
+        float away = distance - square(height) + square(fmaxf(height - j->radius, 0));
+        float near = 1 - away / square(j->radius);
         if (height > 0 && near > 0 && distance > 0)
             most = fmaxf(most, near * square(height) / distance);
     }

@@ -57,7 +57,7 @@ struct sheet_layout sheet_layout(int width, int height, uint32_t count)
     for (int columns = 1; columns <= (int)count; columns++) {
         int rows = ((int)count + columns - 1) / columns;
         int w = width / columns, h = height / rows, side = w < h ? w : h;
-        if (side >= most) { // of equal ones the widest
+        if (side && side >= most) { // of equal ones the widest
             most = side;
             best = (struct sheet_layout){columns, rows, w, h};
         }

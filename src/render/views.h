@@ -16,7 +16,8 @@ struct view_list {
 // "iso,top,front": names between commas.
 bool views_parse(struct view_list *out, const char *text, struct error *err);
 
-// A picture divided into equal cells, as large as they can be, row by row.
+// A picture divided into equal cells, as large as they can be, row by row; no columns when there
+// are not enough pixels.
 struct sheet_layout {
     int columns, rows;
     int width, height; // of a cell
