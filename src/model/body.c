@@ -8,8 +8,14 @@
 
 // Where a term stands. SUBTRACTED: under an odd number of subtractions. PALE: as it counts for the
 // colour of faces; below render() it no longer changes. APART: in the rendered shape of a
-// subtracted object.
-enum { STANDS_SUBTRACTED = 1, STANDS_PALE = 2, STANDS_RENDERED = 4, STANDS_APART = 8 };
+// subtracted object. HIGHLIGHTED: is or was marked #, and shown so.
+enum {
+    STANDS_SUBTRACTED = 1,
+    STANDS_PALE = 2,
+    STANDS_RENDERED = 4,
+    STANDS_APART = 8,
+    STANDS_HIGHLIGHTED = 16
+};
 
 #define CUTTING_PLATE 1.1 // thickness of a subtracted plate over that of others
 
@@ -47,6 +53,7 @@ static void put_leaf(struct emitter *e, uint32_t number, uint8_t stands)
 {
     struct leaf leaf = e->b->scene.leaves[number];
     leaf.subtracted = stands & STANDS_PALE;
+    leaf.highlighted = stands & STANDS_HIGHLIGHTED;
     if (leaf.flat && (stands & STANDS_SUBTRACTED)) // as OpenSCAD does, to cut what is as thick
         for (int i = 0; i < 3; i++)
             leaf.to_world.m[i][2] *= CUTTING_PLATE;
@@ -126,9 +133,11 @@ static void emit_parts(struct emitter *e, uint32_t term)
     struct part *parts;
     uint32_t count;
     products_parts(&e->b->scene, term, &parts, &count);
-    for (uint32_t i = 0; i < count; i++)
-        emit(e, parts[i].term,
-             parts[i].role == PART_SUBTRACTED ? STANDS_SUBTRACTED | STANDS_PALE : 0);
+    for (uint32_t i = 0; i < count; i++) {
+        int stands = parts[i].role == PART_SUBTRACTED ? STANDS_SUBTRACTED | STANDS_PALE : 0;
+        stands |= parts[i].highlighted ? STANDS_HIGHLIGHTED : 0;
+        emit(e, parts[i].term, (uint8_t)stands);
+    }
     put_token(e, EXPR_UNION, count);
     free(parts);
 }

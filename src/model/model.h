@@ -18,6 +18,7 @@ struct leaf {
     bool flat;              // the plate of a flat shape
     bool subtracted;        // drawn in the scheme's cut colour when it has none of its own: stands
                             // under an odd number of subtractions
+    bool highlighted;       // THROWN_TOGETHER: shown as what is marked #
     struct place place;     // of the node in the file
     struct box box;         // in the world
 };

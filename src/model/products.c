@@ -16,7 +16,7 @@ enum { STEPS_MOST = 1000000 };
 // Lists of terms share their ends.
 struct cell {
     uint32_t term, next;
-    bool subtract;
+    bool subtract, highlighted;
 };
 
 struct state {
@@ -27,8 +27,8 @@ struct state {
 
 struct expansion {
     const struct scene *s;
-    struct box *boxes;    // per term
-    unsigned char *roles; // per term, enum part_role
+    struct box *boxes;  // per term
+    struct part *parts; // per term
     struct cell *cells;
     uint32_t cell_count, cell_room;
     struct state *stack;
@@ -61,10 +61,10 @@ static bool meet(struct box a, struct box b)
     return !box_is_empty(box_intersection(a, b));
 }
 
-static uint32_t cons(struct expansion *e, uint32_t term, bool subtract, uint32_t next)
+static uint32_t cons(struct expansion *e, struct cell c)
 {
     array_reserve(&e->cells, &e->cell_room, (size_t)e->cell_count + 1);
-    e->cells[e->cell_count] = (struct cell){term, next, subtract};
+    e->cells[e->cell_count] = c;
     return e->cell_count++;
 }
 
@@ -74,17 +74,42 @@ static void push(struct expansion *e, struct state s)
     e->stack[e->stack_count++] = s;
 }
 
+static void note_part(struct expansion *e, const struct cell *c)
+{
+    struct part *p = &e->parts[c->term];
+    if (p->role == PART_ABSENT)
+        *p = (struct part){c->term, c->subtract ? PART_SUBTRACTED : PART_INTERSECTED,
+                           c->highlighted};
+}
+
 static void note_product(struct expansion *e, const struct state *s)
 {
-    for (uint32_t c = s->members; c != NO_CELL; c = e->cells[c].next) {
-        struct cell cell = e->cells[c];
-        if (e->roles[cell.term] != PART_ABSENT)
-            continue;
-        if (!cell.subtract)
-            e->roles[cell.term] = PART_INTERSECTED;
-        else if (meet(s->box, e->boxes[cell.term]))
-            e->roles[cell.term] = PART_SUBTRACTED;
+    for (uint32_t i = s->members; i != NO_CELL; i = e->cells[i].next) {
+        struct cell c = e->cells[i];
+        if (!c.subtract || meet(s->box, e->boxes[c.term]))
+            note_part(e, &c);
     }
+}
+
+// Multiplying out makes other operations of this one, which do not have its mark.
+static bool is_rewritten(const struct scene *s, const struct term *t)
+{
+    if (is_part(t) || t->op == TERM_UNION)
+        return false;
+    const struct term *left = &s->terms[t->left], *right = &s->terms[t->right];
+    return !is_part(right) ||
+           (!is_part(left) && left->op != TERM_INTERSECTION && left->op != t->op);
+}
+
+// The cell of an operand of the term in a cell.
+static struct cell operand(const struct expansion *e, const struct cell *of, bool right)
+{
+    const struct term *t = &e->s->terms[of->term];
+    struct cell c = {right ? t->right : t->left, NO_CELL, of->subtract, of->highlighted};
+    c.subtract ^= right && t->op == TERM_DIFFERENCE;
+    const struct term *own = &e->s->terms[c.term];
+    c.highlighted |= own->highlighted && !is_rewritten(e->s, own);
+    return c;
 }
 
 // Works the first term of the agenda in.
@@ -102,26 +127,35 @@ static void step(struct expansion *e, struct state s)
     if (is_part(t)) {
         if (!now.subtract)
             s.box = box_intersection(s.box, e->boxes[now.term]);
-        s.members = cons(e, now.term, now.subtract, s.members);
+        now.next = s.members;
+        s.members = cons(e, now);
         push(e, s);
         return;
     }
     // Subtracting turns sums and products over: x - (y + z) is one product, x - y * z are two.
-    bool minus = t->op == TERM_DIFFERENCE;
     bool splits = (t->op == TERM_UNION) != now.subtract;
+    struct cell left = operand(e, &now, false), right = operand(e, &now, true);
     struct state other = s;
-    other.agenda = cons(e, t->right, now.subtract != minus, s.agenda);
-    s.agenda = cons(e, t->left, now.subtract, splits ? s.agenda : other.agenda);
+    right.next = s.agenda;
+    other.agenda = cons(e, right);
+    left.next = splits ? s.agenda : other.agenda;
+    s.agenda = cons(e, left);
     if (splits)
         push(e, other);
     push(e, s);
+}
+
+static struct cell root_cell(const struct expansion *e, uint32_t term)
+{
+    const struct term *t = &e->s->terms[term];
+    return (struct cell){term, NO_CELL, false, t->highlighted && !is_rewritten(e->s, t)};
 }
 
 // False when there are too many steps.
 static bool expand(struct expansion *e, uint32_t term)
 {
     uint32_t steps = 0;
-    push(e, (struct state){BOX_ALL, cons(e, term, false, NO_CELL), NO_CELL});
+    push(e, (struct state){BOX_ALL, cons(e, root_cell(e, term)), NO_CELL});
     while (e->stack_count) {
         struct state s = e->stack[--e->stack_count];
         if (s.agenda == NO_CELL)
@@ -137,19 +171,17 @@ static bool expand(struct expansion *e, uint32_t term)
 // Goes through all parts below a term, those that OpenSCAD's normal form would not reach included.
 static void place_rest(struct expansion *e, uint32_t term)
 {
-    e->stack_count = 0;
-    uint32_t from = e->cell_count, done = from;
-    cons(e, term, false, NO_CELL);
+    uint32_t done = e->cell_count;
+    cons(e, root_cell(e, term));
     for (; done < e->cell_count; done++) {
         struct cell now = e->cells[done];
-        const struct term *t = &e->s->terms[now.term];
-        if (is_part(t)) {
-            if (e->roles[now.term] == PART_ABSENT)
-                e->roles[now.term] = now.subtract ? PART_SUBTRACTED : PART_INTERSECTED;
+        if (is_part(&e->s->terms[now.term])) {
+            note_part(e, &now);
             continue;
         }
-        cons(e, t->left, now.subtract, NO_CELL);
-        cons(e, t->right, now.subtract != (t->op == TERM_DIFFERENCE), NO_CELL);
+        struct cell left = operand(e, &now, false), right = operand(e, &now, true);
+        cons(e, left);
+        cons(e, right);
     }
 }
 
@@ -178,8 +210,8 @@ static void collect(const struct expansion *e, struct part **parts, uint32_t *co
     struct ordered *list = mem_alloc((s->term_count + 1) * sizeof *list);
     *count = 0;
     for (uint32_t i = 0; i < s->term_count; i++)
-        if (e->roles[i] != PART_ABSENT)
-            list[(*count)++] = (struct ordered){{i, (enum part_role)e->roles[i]}, first_leaf(s, i)};
+        if (e->parts[i].role != PART_ABSENT)
+            list[(*count)++] = (struct ordered){e->parts[i], first_leaf(s, i)};
     qsort(list, *count, sizeof *list, by_leaf);
     *parts = mem_alloc((*count + 1) * sizeof **parts);
     for (uint32_t i = 0; i < *count; i++)
@@ -191,14 +223,14 @@ void products_parts(const struct scene *s, uint32_t term, struct part **parts, u
 {
     struct expansion e = {.s = s};
     e.boxes = mem_alloc((s->term_count + 1) * sizeof *e.boxes);
-    e.roles = mem_zalloc(s->term_count + 1);
+    e.parts = mem_zalloc((s->term_count + 1) * sizeof *e.parts);
     for (uint32_t i = 0; i < s->term_count; i++) // operands come before what is made of them
         e.boxes[i] = box_of_term(&e, &s->terms[i]);
     if (term < TERM_EMPTY && !expand(&e, term))
         place_rest(&e, term);
     collect(&e, parts, count);
     free(e.boxes);
-    free(e.roles);
+    free(e.parts);
     free(e.cells);
     free(e.stack);
 }

@@ -11,6 +11,7 @@ enum part_role { PART_ABSENT, PART_INTERSECTED, PART_SUBTRACTED };
 struct part {
     uint32_t term; // a leaf, or what render() or an evaluated node made
     enum part_role role;
+    bool highlighted; // it or what it stands in was marked #
 };
 
 // The parts of the term in the order of the file, absent ones left out. *parts is the caller's to

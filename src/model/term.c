@@ -28,8 +28,10 @@ uint32_t scene_leaf(struct scene *s, const struct leaf *leaf)
 
 void scene_mark(struct scene *s, uint32_t term, uint8_t marks)
 {
-    if (term < TERM_EMPTY)
-        s->terms[term].marks |= marks;
+    if (term >= TERM_EMPTY)
+        return;
+    s->terms[term].marks |= marks;
+    s->terms[term].highlighted |= marks & CSG_HIGHLIGHT;
 }
 
 uint32_t scene_marks(const struct scene *s, uint32_t term)

@@ -8,11 +8,12 @@ enum term_op { TERM_LEAF, TERM_UNION, TERM_INTERSECTION, TERM_DIFFERENCE };
 #define TERM_EMPTY (UINT32_MAX - 1) // the empty set
 
 struct term {
-    uint8_t op;     // enum term_op
-    uint8_t marks;  // CSG_BACKGROUND, CSG_HIGHLIGHT
-    bool rendered;  // came from render(): its cut faces look like its others
-    uint32_t left;  // operand; LEAF: number of the leaf
-    uint32_t right; // operand
+    uint8_t op;       // enum term_op
+    uint8_t marks;    // CSG_BACKGROUND, CSG_HIGHLIGHT
+    bool highlighted; // was marked #, whatever became of the mark
+    bool rendered;    // came from render(): its cut faces look like its others
+    uint32_t left;    // operand; LEAF: number of the leaf
+    uint32_t right;   // operand
 };
 
 struct term_list {

@@ -43,18 +43,34 @@ static uint32_t *triangles_of_faces(const struct mesh *m)
     return found;
 }
 
+static bool *inward_leaves(const struct body *body)
+{
+    const struct expr *e = &body->expr;
+    bool *leaves = mem_zalloc(body->leaf_count + 1);
+    bool *nodes = mem_zalloc(e->node_count + 1);
+    for (uint32_t n = e->node_count; n-- > 0;) { // parents come after their children
+        const struct expr_node *node = &e->nodes[n];
+        if (node->parent != EXPR_NONE)
+            nodes[n] = nodes[node->parent] != (e->nodes[node->parent].minus == n);
+        if (node->op == EXPR_LEAF)
+            leaves[node->leaf] = nodes[n];
+    }
+    free(nodes);
+    return leaves;
+}
+
 void facing_init(struct facing *out, const struct model *m)
 {
     uint32_t count = 0, room = 0, kept = 0;
-    *out = (struct facing){0};
-    for (uint32_t b = 0; b < m->body_count; b++)
-        for (uint32_t i = 0; i < m->bodies[b].leaf_count; i++) {
-            const struct solid *solid = m->bodies[b].leaves[i].solid;
-            if (solid->convex || (count && out->meshes[count - 1].solid == solid))
-                continue;
-            array_reserve(&out->meshes, &room, (size_t)count + 1);
-            out->meshes[count++] = (struct face_corners){.solid = solid};
-        }
+    const struct body *body = &m->bodies[0];
+    *out = (struct facing){.inwards = inward_leaves(body)};
+    for (uint32_t i = 0; i < body->leaf_count; i++) {
+        const struct solid *solid = body->leaves[i].solid;
+        if (solid->convex || (count && out->meshes[count - 1].solid == solid))
+            continue;
+        array_reserve(&out->meshes, &room, (size_t)count + 1);
+        out->meshes[count++] = (struct face_corners){.solid = solid};
+    }
     if (count)
         qsort(out->meshes, count, sizeof *out->meshes, by_solid);
     for (uint32_t i = 0; i < count; i++) {
@@ -70,6 +86,7 @@ void facing_free(struct facing *f)
     for (uint32_t i = 0; i < f->mesh_count; i++)
         free(f->meshes[i].triangles);
     free(f->meshes);
+    free(f->inwards);
     *f = (struct facing){0};
 }
 
@@ -78,12 +95,13 @@ struct viewpoint viewpoint_of(const struct rays *rays)
     return (struct viewpoint){rays->orthographic, rays->origin, rays->forward};
 }
 
-bool facing_back(const struct facing *f, const struct leaf *leaf, uint32_t face,
+bool facing_back(const struct facing *f, const struct body *body, uint32_t leaf, uint32_t face,
                  const struct viewpoint *from)
 {
-    const struct solid *solid = leaf->solid;
+    const struct leaf *placed = &body->leaves[leaf];
+    const struct solid *solid = placed->solid;
     struct vec3 normal, point;
-    bool turned = false;
+    bool turned = f->inwards[leaf];
     if (solid->convex) {
         const struct planes *p = &solid->planes;
         normal = (struct vec3){p->nx[face], p->ny[face], p->nz[face]};
@@ -95,10 +113,10 @@ bool facing_back(const struct facing *f, const struct leaf *leaf, uint32_t face,
         uint32_t triangle = found ? found->triangles[face] : 0;
         twice_area(&solid->mesh, triangle, &normal);
         point = solid->mesh.vertices[solid->mesh.triangles[triangle][0]];
-        turned = solid->mesh.turned && solid->mesh.turned[face];
+        turned ^= solid->mesh.turned && solid->mesh.turned[face];
     }
     struct vec3 towards = from->ahead;
     if (!from->orthographic)
-        towards = vec3_sub(affine_point(&leaf->to_world, point), from->eye);
-    return (vec3_dot(affine_normal(&leaf->to_local, normal), towards) > 0) != turned;
+        towards = vec3_sub(affine_point(&placed->to_world, point), from->eye);
+    return (vec3_dot(affine_normal(&placed->to_local, normal), towards) > 0) != turned;
 }

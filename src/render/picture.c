@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "render/outlines.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -311,6 +312,7 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
         if (p->overlay && d.first) // the body is opaque and hides afterwards what is behind it
             overlay_draw_among(p->overlay, rays, &canvas);
     }
+    outlines_draw(&canvas, shader, rays);
     if (p->overlay)
         overlay_draw_over(p->overlay, rays, &canvas);
 }

@@ -48,9 +48,10 @@ static struct material material_of(const struct model *m, const struct leaf *lea
     float c[4] = {(float)stock.r / 255, (float)stock.g / 255, (float)stock.b / 255, 1};
     if (kind == BODY_BACKGROUND)
         memcpy(c, background_colour, sizeof c);
-    if (kind == BODY_HIGHLIGHT)
+    bool highlighted = kind == BODY_HIGHLIGHT || leaf->highlighted;
+    if (highlighted)
         memcpy(c, highlight_colour, sizeof c);
-    for (int i = 0; i < 4 && kind != BODY_HIGHLIGHT; i++)
+    for (int i = 0; i < 4 && !highlighted; i++)
         if (leaf->colour[i] >= 0)
             c[i] = leaf->colour[i];
     uint8_t alpha = c[3] < 1 ? (uint8_t)(c[3] * 255 + 0.5f) : 255;
@@ -113,7 +114,7 @@ static bool shows_back(const struct shader *s, uint32_t body, const struct light
     const struct body *b = &s->model->bodies[body];
     if (s->model->mode != MODEL_THROWN_TOGETHER || b->kind != BODY_MAIN)
         return false;
-    return face == SURFACE_CAP || facing_back(&s->facing, &b->leaves[leaf], face, &light->from);
+    return face == SURFACE_CAP || facing_back(&s->facing, b, leaf, face, &light->from);
 }
 
 struct rgba shade_face(const struct shader *s, uint32_t body, const struct light *light,
