@@ -201,7 +201,8 @@ static void begin(struct loader *l)
         build_ask(l->build, &task);
     } else if (access(task.name, F_OK) == 0) {
         l->exporting = clock_seconds();
-        l->job = scad_start(&l->loop, l->options.path, l->options.openscad, on_exported, l);
+        l->job = scad_start(&l->loop, l->options.path,
+                            &(struct scad_options){.program = l->options.openscad}, on_exported, l);
         publish(l, NULL, NULL, false, true);
     } else if (!try_again(l)) {
         messages_add(&task.messages, MESSAGE_ERROR, (struct place){0}, "%s: %s", task.name,

@@ -100,14 +100,26 @@ void messages_append(struct messages *m, const struct messages *more)
     }
 }
 
+static void print_message(const struct message *m, FILE *out)
+{
+    fprintf(out, "%s%s\n", m->level == MESSAGE_WARNING ? "warning: " : "", m->text);
+    if (m->source)
+        fprintf(out, "%s\n", m->source);
+}
+
+void messages_print_errors(const struct messages *m, FILE *out)
+{
+    for (uint32_t i = 0; i < m->count; i++)
+        if (m->items[i].level == MESSAGE_ERROR)
+            print_message(&m->items[i], out);
+    if (m->errors > MESSAGES_KEPT)
+        fprintf(out, "%u more errors not shown\n", m->errors - MESSAGES_KEPT);
+}
+
 void messages_print(const struct messages *m, FILE *out)
 {
-    for (uint32_t i = 0; i < m->count; i++) {
-        const struct message *one = &m->items[i];
-        fprintf(out, "%s%s\n", one->level == MESSAGE_WARNING ? "warning: " : "", one->text);
-        if (one->source)
-            fprintf(out, "%s\n", one->source);
-    }
+    for (uint32_t i = 0; i < m->count; i++)
+        print_message(&m->items[i], out);
     if (m->warnings > MESSAGES_KEPT)
         fprintf(out, "warning: %u more warnings not shown\n", m->warnings - MESSAGES_KEPT);
     if (m->errors > MESSAGES_KEPT)

@@ -42,4 +42,5 @@ void messages_append(struct messages *m, const struct messages *more); // adds c
 // Attaches a source excerpt to the newest message.
 void messages_source(struct messages *m, const char *line, size_t length, uint32_t column);
 void messages_print(const struct messages *m, FILE *out);
-void messages_free(struct messages *m); // leaves {0}
+void messages_print_errors(const struct messages *m, FILE *out); // without warnings
+void messages_free(struct messages *m);                          // leaves {0}

@@ -60,6 +60,8 @@ static void set_unknown(const struct program *p, const char *name, size_t length
     for (uint32_t i = 0; i < total(p); i++) {
         const char *candidate = at(p, i)->name;
         uint32_t d = candidate ? distance(name, length, candidate) : best;
+        if (candidate && length > 2 && strncmp(candidate, name, length) == 0 && best)
+            d = best - 1; // shortened
         if (d < best) {
             best = d;
             nearest = candidate;
@@ -164,6 +166,23 @@ static bool store_item(const struct given *g, struct error *err)
     return true;
 }
 
+// Whether all parts of `word` between commas are among `names` between bars.
+static bool is_choice(const char *word, const char *names)
+{
+    for (size_t length; word; word = word[length] ? word + length + 1 : NULL) {
+        length = strcspn(word, ",");
+        const char *name = names;
+        for (size_t n; name; name = name[n] ? name + n + 1 : NULL) {
+            n = strcspn(name, "|");
+            if (n == length && strncmp(name, word, n) == 0)
+                break;
+        }
+        if (!name)
+            return false;
+    }
+    return true;
+}
+
 static bool store(const struct given *g, struct error *err)
 {
     switch (g->option->kind) {
@@ -180,6 +199,7 @@ static bool store(const struct given *g, struct error *err)
     case OPTION_SIZE:
         return store_size(g, err);
     case OPTION_LIST:
+    case OPTION_OPTIONAL:
         return store_item(g, err);
     case OPTION_COUNT:
     case OPTION_NUMBER:
@@ -193,8 +213,10 @@ static int print_name(const struct option *o)
 {
     const char *name = o->name ? o->name : "", *argument = o->argument ? o->argument : "";
     char letter[] = {'-', o->letter, o->name ? ',' : 0, 0};
-    return printf("  %-3s %s%s%s%s", o->letter ? letter : "", o->name ? "--" : "", name,
-                  o->argument && o->name ? "=" : "", argument);
+    bool optional = o->kind == OPTION_OPTIONAL;
+    const char *before = optional ? "[=" : o->argument && o->name ? "=" : "";
+    return printf("  %-3s %s%s%s%s%s", o->letter ? letter : "", o->name ? "--" : "", name, before,
+                  argument, optional ? "]" : "");
 }
 
 static void print_help(const struct program *p)
@@ -250,6 +272,10 @@ enum options_result options_parse(const struct program *p, int argc, char **argv
             return OPTIONS_WRONG;
         if (g.option == &common[0] || g.option == &common[1])
             return explain(p, g.option == &common[0], err);
+        if (g.option->kind == OPTION_OPTIONAL && !g.value) {
+            bool named = i + 1 < argc && is_choice(argv[i + 1], g.option->argument);
+            g.value = named ? argv[++i] : "";
+        }
         if (g.option->kind != OPTION_FLAG && !g.value) {
             if (i + 1 == argc) {
                 error_set(err, "%.*s: expected %s after it", shown(&g), word, g.option->argument);

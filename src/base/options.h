@@ -9,6 +9,9 @@ enum option_kind {
     OPTION_NUMBER, // double: a finite number in [least, most]
     OPTION_SIZE,   // int[2]: "W,H", whole numbers in [least, most]
     OPTION_LIST,   // struct option_list: may be given several times
+    // struct option_list: the value may be left out and is "" then. The next word is a value only
+    // if it names what `argument` lists between bars: "all|time" takes "all" and "time,all".
+    OPTION_OPTIONAL,
 };
 
 enum { OPTION_LIST_MOST = 64 };

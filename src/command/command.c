@@ -2,6 +2,7 @@
 #include "command/command.h"
 
 #include "base/clock.h"
+#include "command/build.h"
 #include "command/input.h"
 #include "command/output.h"
 #include "command/summary.h"
@@ -20,18 +21,6 @@ static double lap(double *start)
     double before = *start;
     *start = clock_seconds();
     return *start - before;
-}
-
-static void build(struct model *out, const struct request *r, const struct csg_tree *tree,
-                  struct messages *messages)
-{
-    struct solid_store *store = solid_store_new();
-    struct model_options options = MODEL_DEFAULTS;
-    options.epsilon = r->epsilon;
-    options.import_folders = r->import_folders.items;
-    options.import_folder_count = r->import_folders.count;
-    model_build(out, tree, store, &options, messages);
-    solid_store_delete(store);
 }
 
 // One output that cannot be written does not keep the others from it.
@@ -74,6 +63,24 @@ static int produce(const struct request *r, const struct model *m, const struct 
     return code;
 }
 
+static void print_messages(const struct request *r, const struct messages *messages)
+{
+    if (r->quiet)
+        messages_print_errors(messages, stderr);
+    else
+        messages_print(messages, stderr);
+}
+
+static bool stops_at_warnings(const struct request *r, const struct messages *messages)
+{
+    struct error err;
+    if (!r->hard_warnings || messages->warnings + messages->errors == 0)
+        return false;
+    error_set(&err, "%s: nothing is written, there are warnings (--hardwarnings)", r->input);
+    command_fail(&err, EXIT_INPUT);
+    return true;
+}
+
 int command_run(const struct request *r)
 {
     int code = EXIT_INPUT;
@@ -81,17 +88,19 @@ int command_run(const struct request *r)
     struct input input = {0};
     struct model model = {0};
     struct timing times = {0};
+    struct solid_store *store = solid_store_new();
     double start = clock_seconds();
 
     bool read = input_read(&input, r, &messages);
     times.read = lap(&start);
     if (read)
-        build(&model, r, &input.tree, &messages);
+        build_model(&model, r, &input, store, &messages);
     times.build = lap(&start);
-    messages_print(&messages, stderr);
-    if (read && !(r->hard_warnings && messages.warnings + messages.errors))
+    print_messages(r, &messages);
+    if (read && !stops_at_warnings(r, &messages))
         code = produce(r, &model, &messages, &times, &start);
     model_free(&model);
+    solid_store_delete(store);
     input_free(&input);
     messages_free(&messages);
     return code;

@@ -9,5 +9,6 @@ struct input { // {0} is valid
     struct scad_result scad; // empty for a .csg
 };
 
+// Prints what openscad says.
 bool input_read(struct input *out, const struct request *r, struct messages *messages);
 void input_free(struct input *in); // leaves {0}

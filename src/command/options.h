@@ -8,10 +8,15 @@ struct given {
     struct option_list outputs;
     const char *export_format, *camera, *projection, *view, *scheme, *device;
     int size[2];
-    bool viewall, autocenter, summary, hard_warnings;
+    bool viewall, autocenter, summary, hard_warnings, quiet;
+    struct option_list render, preview;
+    uint32_t term_limit;
     uint32_t threads, megabytes;
     double epsilon;
     struct option_list import_folders;
+    // For openscad:
+    const char *openscad, *parameter_file, *parameter_set, *make_command;
+    struct option_list definitions;
 };
 
 enum options_result given_parse(struct given *out, int argc, char **argv, struct error *err);

@@ -3,7 +3,10 @@
 
 #include "base/file.h"
 
+#include <errno.h>
 #include <string.h>
+#include <strings.h>
+#include <unistd.h>
 
 enum { PIXELS_MOST = 1 << 26 };
 
@@ -17,9 +20,39 @@ static bool set_input(struct request *out, const struct given *given, struct err
         return false;
     }
     out->input = given->operands[0];
+    out->is_scad = strcasecmp(file_extension(out->input), "scad") == 0;
     if (!*out->input)
         error_set(err, "expected the name of an input file, got ''");
     return *out->input;
+}
+
+// openscad goes on with the defaults after what is wrong here.
+static bool set_openscad(struct request *out, const struct given *given, struct error *err)
+{
+    out->openscad = given->openscad;
+    out->parameter_file = given->parameter_file;
+    out->parameter_set = given->parameter_set;
+    out->make_command = given->make_command;
+    out->definitions = given->definitions;
+    for (uint32_t i = 0; i < given->definitions.count; i++) {
+        const char *definition = given->definitions.items[i], *equals = strchr(definition, '=');
+        if (!equals || equals == definition || !equals[1]) {
+            error_set(err, "-D: expected VARIABLE=VALUE, got '%s'", definition);
+            return false;
+        }
+    }
+    if (!given->parameter_file != !given->parameter_set) {
+        error_set(err,
+                  given->parameter_set ? "-P %s: expected the file of the set with -p"
+                                       : "-p %s: expected the name of a set with -P",
+                  given->parameter_set ? given->parameter_set : given->parameter_file);
+        return false;
+    }
+    if (given->parameter_file && access(given->parameter_file, R_OK) != 0) {
+        error_set(err, "-p: %s: %s", given->parameter_file, strerror(errno));
+        return false;
+    }
+    return true;
 }
 
 static bool set_outputs(struct request *out, const struct given *given, struct error *err)
@@ -72,6 +105,27 @@ static bool set_camera(struct request *out, const struct given *given, struct er
            (!given->projection || camera_parse_projection(&out->camera, given->projection, err));
 }
 
+static bool set_mode(struct request *out, const struct given *given, struct error *err)
+{
+    for (uint32_t i = 0; i < given->render.count; i++) {
+        const char *how = given->render.items[i]; // all of it is one thing here
+        if (*how && strcmp(how, "cgal") != 0 && strcmp(how, "force") != 0) {
+            error_set(err, "--render: expected nothing, cgal or force, got '%s'", how);
+            return false;
+        }
+        out->mode = MODEL_RENDER;
+    }
+    for (uint32_t i = 0; i < given->preview.count; i++) { // both: as in OpenSCAD a preview
+        const char *how = given->preview.items[i];
+        if (*how && strcmp(how, "throwntogether") != 0) {
+            error_set(err, "--preview: expected nothing or throwntogether, got '%s'", how);
+            return false;
+        }
+        out->mode = *how ? MODEL_THROWN_TOGETHER : MODEL_PREVIEW;
+    }
+    return true;
+}
+
 static bool check_device(const struct given *given, struct error *err)
 {
     if (!given->device || strcmp(given->device, "auto") == 0 || strcmp(given->device, "cpu") == 0)
@@ -87,8 +141,10 @@ bool request_make(struct request *out, const struct given *given, struct error *
                             .memory = (size_t)given->megabytes << 20,
                             .import_folders = given->import_folders,
                             .hard_warnings = given->hard_warnings,
+                            .quiet = given->quiet,
                             .summary = given->summary};
-    if (!set_input(out, given, err) || !check_device(given, err))
+    if (!set_input(out, given, err) || !set_openscad(out, given, err) ||
+        !set_mode(out, given, err) || !check_device(given, err))
         return false;
     out->view = view_parse(given->view);
     out->scheme = scheme_find(given->scheme, err);

@@ -13,6 +13,10 @@ struct output {
 
 struct request {       // borrows from the command line
     const char *input; // "-": standard input
+    bool is_scad;
+    // For openscad, and what is done for it with a .csg
+    const char *openscad, *parameter_file, *parameter_set, *make_command; // NULL: not given
+    struct option_list definitions;
     struct output outputs[OPTION_LIST_MOST];
     uint32_t output_count;
     int width, height;
@@ -20,11 +24,12 @@ struct request {       // borrows from the command line
     bool viewall, autocenter;
     struct view_options view;
     const struct scheme *scheme;
+    enum model_mode mode;
     double epsilon; // negative: the default for the model
     uint32_t threads;
     size_t memory;
     struct option_list import_folders;
-    bool hard_warnings;
+    bool hard_warnings, quiet;
     bool summary;
 };
 

@@ -127,36 +127,59 @@ static char *find_file(const struct scad_result *r, const char *name, size_t len
     return found;
 }
 
+// The first line that begins with `level`, without that, NULL when there is none.
+static const char *find_message(const char *log, const char *level, size_t *length)
+{
+    for (const char *line; (line = next_line(&log, length));)
+        if (begins(line, *length, level)) {
+            size_t skip = strlen(level);
+            while (skip < *length && line[skip] == ' ')
+                skip++;
+            *length -= skip;
+            return line + skip;
+        }
+    return NULL;
+}
+
+static void set_message(const struct scad_result *r, const char *text, size_t length,
+                        struct error *err)
+{
+    size_t at, name, name_length;
+    unsigned long number = find_place(text, length, &at, &name, &name_length);
+    char *file = number ? find_file(r, text + name, name_length) : NULL;
+    if (file)
+        error_at(err, (struct place){.file = file, .line = (uint32_t)number}, "%.*s",
+                 (int)shown(at), text);
+    else
+        error_set(err, "%s: %.*s", r->files[0], (int)shown(length), text);
+    free(file);
+}
+
 void scad_error(const struct scad_result *r, struct error *err)
 {
-    const char *first = NULL, *last = "failed without a message", *log = r->log;
-    size_t length, first_length = 0, last_length = strlen(last);
-    for (const char *line; (line = next_line(&log, &length));) {
-        if (!first && begins(line, length, "ERROR:")) {
-            first = line;
-            first_length = length;
-        }
+    size_t length, last_length;
+    const char *first = find_message(r->log, "ERROR:", &length);
+    if (first) {
+        set_message(r, first, length, err);
+        return;
+    }
+    const char *last = "failed without a message", *log = r->log;
+    last_length = strlen(last);
+    for (const char *line; (line = next_line(&log, &length));)
         if (length) {
             last = line;
             last_length = length;
         }
-    }
-    if (!first) {
-        error_set(err, "%s: openscad: %.*s", r->files[0], (int)shown(last_length), last);
-        return;
-    }
-    size_t skip = strlen("ERROR:");
-    while (skip < first_length && first[skip] == ' ')
-        skip++;
-    size_t at, name, name_length;
-    unsigned long number = find_place(first, first_length, &at, &name, &name_length);
-    char *file = number ? find_file(r, first + name, name_length) : NULL;
-    if (file)
-        error_at(err, (struct place){.file = file, .line = (uint32_t)number}, "%.*s",
-                 (int)shown(at - skip), first + skip);
-    else
-        error_set(err, "%s: %.*s", r->files[0], (int)shown(first_length - skip), first + skip);
-    free(file);
+    error_set(err, "%s: openscad: %.*s", r->files[0], (int)shown(last_length), last);
+}
+
+bool scad_warning(const struct scad_result *r, struct error *err)
+{
+    size_t length;
+    const char *first = find_message(r->log, "WARNING:", &length);
+    if (first)
+        set_message(r, first, length, err);
+    return first;
 }
 
 // One line of the rule: a tab, the name with its blanks escaped, and " \" unless it is the last.

@@ -16,5 +16,5 @@ bool scad_log_has_error(const char *log);
 // the messages name are taken in as well: without a rule (after a syntax error) they are all that
 // is known.
 void scad_read_files(const char *rule_path, const char *path, struct scad_result *out);
-// Says in one line what the messages say, with the place in front when they name one.
+// Says in one line why openscad failed, with the place in front when the messages name one.
 void scad_error(const struct scad_result *r, struct error *err);

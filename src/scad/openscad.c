@@ -6,6 +6,7 @@
 #include "scad/answer.h"
 
 #include <signal.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -159,10 +160,16 @@ static bool make_folder(struct scad_job *job, struct error *err)
     return true;
 }
 
-// Its own session, so that a wrapper script dies with all that it started.
-static int spawn(struct scad_job *job, uv_loop_t *loop)
+// In a session of its own, so that a wrapper script dies with all that it started.
+static int spawn(struct scad_job *job, uv_loop_t *loop, const struct scad_options *o)
 {
-    char *arguments[] = {job->program, "-o", job->text_path, "-d", job->rule_path, job->path, NULL};
+    char *const export[] = {job->program, "-o", job->text_path, "-d", job->rule_path};
+    size_t count = array_count(export);
+    char **arguments = mem_zalloc((count + o->argument_count + 2) * sizeof *arguments);
+    memcpy(arguments, export, sizeof export);
+    for (uint32_t i = 0; i < o->argument_count; i++)
+        arguments[count++] = (char *)(uintptr_t)o->arguments[i]; // only read, as execvp does
+    arguments[count] = job->path;
     uv_stdio_container_t stdio[3] = {
         {.flags = UV_IGNORE},
         {.flags = UV_IGNORE},
@@ -174,15 +181,19 @@ static int spawn(struct scad_job *job, uv_loop_t *loop)
                                     .flags = UV_PROCESS_DETACHED,
                                     .stdio_count = 3,
                                     .stdio = stdio};
-    return uv_spawn(loop, &job->process, &options);
+    int failed = uv_spawn(loop, &job->process, &options);
+    free(arguments);
+    return failed;
 }
 
-struct scad_job *scad_start(struct uv_loop_s *loop, const char *path, const char *program,
-                            scad_done *done, void *context)
+struct scad_job *scad_start(struct uv_loop_s *loop, const char *path,
+                            const struct scad_options *options, scad_done *done, void *context)
 {
     struct scad_job *job = mem_zalloc(sizeof *job);
-    const char *named = getenv("OPENSCAD");
-    job->program = mem_strdup(program ? program : named && *named ? named : "openscad");
+    const char *program = options->program;
+    if (!program)
+        program = getenv("OPENSCAD");
+    job->program = mem_strdup(program && *program ? program : "openscad");
     job->path = path[0] == '-' ? mem_alloc(strlen(path) + 3) : mem_strdup(path);
     if (path[0] == '-')
         sprintf(job->path, "./%s", path);
@@ -192,12 +203,12 @@ struct scad_job *scad_start(struct uv_loop_s *loop, const char *path, const char
     uv_pipe_init(loop, &job->messages, 0);
     job->open_handles = 1;
     if (make_folder(job, &job->failure)) {
-        int failed = spawn(job, loop);
+        int failed = spawn(job, loop, options);
         job->open_handles = 2; // also a process that never ran is a handle to close
         if (failed) {
             error_set(&job->failure,
-                      "%s: %s; .scad files need openscad: install it, or set $OPENSCAD to where "
-                      "it is",
+                      "%s: %s; .scad files need openscad: install it, or say where it is with "
+                      "--openscad or $OPENSCAD",
                       job->program, uv_strerror(failed));
             uv_close((uv_handle_t *)&job->process, on_closed);
         }
@@ -269,7 +280,8 @@ static void listen_to_signals(struct waiting *w, uv_loop_t *loop)
     }
 }
 
-bool scad_export(const char *path, const char *program, struct scad_result *out, struct error *err)
+bool scad_export(const char *path, const struct scad_options *options, struct scad_result *out,
+                 struct error *err)
 {
     uv_loop_t loop;
     struct waiting w = {.out = out, .err = err};
@@ -278,7 +290,7 @@ bool scad_export(const char *path, const char *program, struct scad_result *out,
         return false;
     }
     listen_to_signals(&w, &loop);
-    w.job = scad_start(&loop, path, program, on_done, &w);
+    w.job = scad_start(&loop, path, options, on_done, &w);
     uv_run(&loop, UV_RUN_DEFAULT);
     uv_loop_close(&loop);
     if (w.signal) {

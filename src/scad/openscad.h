@@ -17,17 +17,26 @@ struct scad_result { // {0} is a valid empty result
 
 void scad_result_free(struct scad_result *r); // leaves {0}
 
+struct scad_options {             // {0}: all defaults. Borrowed while the export lasts
+    const char *program;          // NULL: $OPENSCAD, or else "openscad" on the PATH
+    const char *const *arguments; // for the program, beside those that make it export
+    uint32_t argument_count;
+};
+
 // Exports and waits for the end. SIGINT, SIGTERM and SIGHUP end openscad first, then take their
-// course. `program` NULL means $OPENSCAD, or else "openscad" on the PATH.
-// After a failure *out holds files and log all the same.
-bool scad_export(const char *path, const char *program, struct scad_result *out, struct error *err);
+// course. After a failure *out holds files and log all the same.
+bool scad_export(const char *path, const struct scad_options *options, struct scad_result *out,
+                 struct error *err);
 
 // The same without waiting. `done` is called once, from the loop; it takes the result over. `err`
 // is NULL when the export went well.
 struct scad_job;
 typedef void scad_done(void *context, struct scad_result *result, const struct error *err);
-struct scad_job *scad_start(struct uv_loop_s *loop, const char *path, const char *program,
-                            scad_done *done, void *context);
+struct scad_job *scad_start(struct uv_loop_s *loop, const char *path,
+                            const struct scad_options *options, scad_done *done, void *context);
 // Kills the child with all its children; `done` is not called any more. The job ends itself on the
 // loop, which has to run until then.
 void scad_cancel(struct scad_job *job);
+
+// Whether openscad warned; *err becomes its first warning, with the place in front.
+bool scad_warning(const struct scad_result *r, struct error *err);

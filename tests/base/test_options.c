@@ -16,6 +16,7 @@ static bool verbose;
 static uint32_t threads;
 static double scale;
 static int sides[2];
+static struct option_list shown, defined;
 
 static const struct option options[] = {
     {"output", 'o', OPTION_TEXT, "FILE", "where to write", &output, 0, 0},
@@ -24,6 +25,8 @@ static const struct option options[] = {
     {"threads", 'j', OPTION_COUNT, "N", "threads", &threads, 0, 64},
     {"scale", 0, OPTION_NUMBER, "S", "factor", &scale, -1, 1e6},
     {"size", 0, OPTION_SIZE, "W,H", "sides", sides, 1, 99},
+    {"show", 0, OPTION_OPTIONAL, "all|time|box", "what to say", &shown, 0, 0},
+    {NULL, 'D', OPTION_LIST, "VAR=VALUE", "set a variable", &defined, 0, 0},
 };
 static const struct program program = {"tool", "1.2.3", "Does things.",
                                        "FILE", options, array_count(options)};
@@ -41,6 +44,7 @@ static enum options_result parse(const char *line, struct error *err)
     verbose = false;
     threads = 1;
     scale = 1;
+    shown.count = defined.count = 0;
     operands = -1;
     words[0] = (char *)(uintptr_t) "tool";
     snprintf(buffer, sizeof buffer, "%s", line);
@@ -82,6 +86,34 @@ static void accepts_all_forms(void **state)
     assert_int_equal(parse("", &err), OPTIONS_RUN);
 }
 
+static void values_may_be_left_out(void **state)
+{
+    (void)state;
+    struct error err;
+    assert_int_equal(parse("--show file", &err), OPTIONS_RUN);
+    assert_int_equal(operands, 1);
+    assert_int_equal(shown.count, 1);
+    assert_string_equal(shown.items[0], "");
+    assert_int_equal(parse("--show=file --show time --show box,all allx --show", &err),
+                     OPTIONS_RUN);
+    assert_int_equal(operands, 1);
+    assert_int_equal(shown.count, 4);
+    assert_string_equal(shown.items[0], "file"); // the program says that it is wrong
+    assert_string_equal(shown.items[1], "time");
+    assert_string_equal(shown.items[2], "box,all");
+    assert_string_equal(shown.items[3], "");
+    for (const char *const *word = (const char *const[]){"time,", "tim", "boxes", ",", "|", NULL};
+         *word; word++) {
+        char line[64];
+        snprintf(line, sizeof line, "--show %s", *word);
+        assert_int_equal(parse(line, &err), OPTIONS_RUN);
+        assert_int_equal(operands, 1);
+    }
+    assert_int_equal(parse("-D x=1 -Dy=2", &err), OPTIONS_RUN);
+    assert_int_equal(defined.count, 2);
+    assert_string_equal(defined.items[1], "y=2");
+}
+
 static void says_what_is_wrong(void **state)
 {
     (void)state;
@@ -90,6 +122,8 @@ static void says_what_is_wrong(void **state)
     } rows[] = {
         {"--colourscheme=x", "unknown option --colourscheme; did you mean --colorscheme?"},
         {"--thread 3", "unknown option --thread; did you mean --threads?"},
+        {"--color red", "unknown option --color; did you mean --colorscheme?"},
+        {"--sh", "unknown option --sh; --help lists them"},
         {"--halp", "unknown option --halp; did you mean --help?"},
         {"--quite-another-thing", "unknown option --quite-another-thing; --help lists them"},
         {"--x", "unknown option --x; --help lists them"},
@@ -164,6 +198,8 @@ static void help_shows_the_table(void **state)
                               "  -j, --threads=N             threads\n"
                               "      --scale=S               factor\n"
                               "      --size=W,H              sides\n"
+                              "      --show[=all|time|box]   what to say\n"
+                              "  -D  VAR=VALUE               set a variable\n"
                               "  -h, --help                  show this text\n"
                               "  -v, --version               show the version\n");
     assert_int_equal(printed("--version", text, sizeof text), OPTIONS_DONE);
@@ -173,9 +209,8 @@ static void help_shows_the_table(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(accepts_all_forms),
-        cmocka_unit_test(says_what_is_wrong),
-        cmocka_unit_test(long_unknown_names_are_cheap),
+        cmocka_unit_test(accepts_all_forms),    cmocka_unit_test(values_may_be_left_out),
+        cmocka_unit_test(says_what_is_wrong),   cmocka_unit_test(long_unknown_names_are_cheap),
         cmocka_unit_test(help_shows_the_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

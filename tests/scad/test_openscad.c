@@ -51,6 +51,12 @@ static int make_folder(void **state)
     return setenv("TMPDIR", in_folder("tmp"), 1);
 }
 
+static bool run_export(const char *path, const char *program, struct scad_result *out,
+                       struct error *err)
+{
+    return scad_export(path, &(struct scad_options){.program = program}, out, err);
+}
+
 static int entries(const char *path)
 {
     int count = 0;
@@ -80,7 +86,7 @@ static void text_files_and_messages(void **state)
              "echo 'ECHO: 1' >&2; echo 'noise'");
     struct scad_result r = {0};
     struct error err;
-    assert_true(scad_export("dir/a part.scad", program, &r, &err));
+    assert_true(run_export("dir/a part.scad", program, &r, &err));
     assert_string_equal(r.text, "cube(1);\n");
     assert_int_equal(r.size, 9);
     assert_int_equal(r.text[10], 0); // the second zero byte
@@ -97,7 +103,7 @@ static void expect_failure(const char *script, const char *message)
 {
     struct scad_result r = {0};
     struct error err;
-    assert_false(scad_export("dir/p.scad", play(script), &r, &err));
+    assert_false(run_export("dir/p.scad", play(script), &r, &err));
     assert_null(r.text);
     if (!strstr(err.text, message))
         fail_msg("%s", err.text);
@@ -130,9 +136,9 @@ static void named_files_are_known_after_a_failure(void **state)
     char expected[200];
     assert_true(file_write(in_folder("q.scad"), "", 0, NULL));
     snprintf(expected, sizeof expected, "%s:7: bad", in_folder("q.scad"));
-    assert_false(scad_export(in_folder("p.scad"),
-                             play("echo 'ERROR: bad in file q.scad, line 7' >&2; exit 1"), &r,
-                             &err));
+    assert_false(run_export(in_folder("p.scad"),
+                            play("echo 'ERROR: bad in file q.scad, line 7' >&2; exit 1"), &r,
+                            &err));
     assert_int_equal(r.file_count, 2);
     assert_string_equal(r.files[1], in_folder("q.scad"));
     assert_string_equal(err.text, expected);
@@ -144,7 +150,7 @@ static void an_error_beside_a_tree_is_no_failure(void **state)
     (void)state;
     struct scad_result r = {0};
     assert_true(
-        scad_export("p.scad", play("echo 'cube();' > $2; echo 'ERROR: points' >&2"), &r, NULL));
+        run_export("p.scad", play("echo 'cube();' > $2; echo 'ERROR: points' >&2"), &r, NULL));
     assert_string_equal(r.log, "ERROR: points\n");
     scad_result_free(&r);
 }
@@ -153,7 +159,7 @@ static void an_empty_design_is_no_failure(void **state)
 {
     (void)state;
     struct scad_result r = {0};
-    assert_true(scad_export("p.scad", play("echo > $2"), &r, NULL));
+    assert_true(run_export("p.scad", play("echo > $2"), &r, NULL));
     assert_string_equal(r.text, "\n");
     scad_result_free(&r);
 }
@@ -163,11 +169,11 @@ static void of_endless_messages_the_newest_stay(void **state)
     (void)state;
     struct scad_result r = {0};
     struct error err;
-    assert_false(scad_export("p.scad",
-                             play("head -c 20000000 /dev/zero | tr '\\0' 'x' >&2\n"
-                                  "yes 'ECHO: again' | head -n 300000 >&2\n"
-                                  "echo 'ERROR: last' >&2; exit 1"),
-                             &r, &err));
+    assert_false(run_export("p.scad",
+                            play("head -c 20000000 /dev/zero | tr '\\0' 'x' >&2\n"
+                                 "yes 'ECHO: again' | head -n 300000 >&2\n"
+                                 "echo 'ERROR: last' >&2; exit 1"),
+                            &r, &err));
     assert_true(strlen(r.log) <= 1 << 19);
     assert_non_null(strstr(err.text, "last"));
     scad_result_free(&r);
@@ -178,7 +184,7 @@ static void missing_program_is_named(void **state)
     (void)state;
     struct scad_result r = {0};
     struct error err;
-    assert_false(scad_export("p.scad", "/no/such/openscad", &r, &err));
+    assert_false(run_export("p.scad", "/no/such/openscad", &r, &err));
     assert_non_null(strstr(err.text, "/no/such/openscad: no such file"));
     scad_result_free(&r);
 }
@@ -188,9 +194,23 @@ static void program_comes_from_the_environment(void **state)
     (void)state;
     struct scad_result r = {0};
     setenv("OPENSCAD", play("echo 'sphere();' > $2"), 1);
-    assert_true(scad_export("p.scad", NULL, &r, NULL));
+    assert_true(run_export("p.scad", NULL, &r, NULL));
     unsetenv("OPENSCAD");
     assert_string_equal(r.text, "sphere();\n");
+    scad_result_free(&r);
+}
+
+static void arguments_are_handed_on(void **state)
+{
+    (void)state;
+    struct scad_result r = {0};
+    const char *const words[] = {"-D", "a=\"b c\"", "--render"};
+    const struct scad_options options = {.program =
+                                             play("printf '%s|' \"$5\" \"$6\" \"$7\" \"$8\" > $2"),
+                                         .arguments = words,
+                                         .argument_count = array_count(words)};
+    assert_true(scad_export("p.scad", &options, &r, NULL));
+    assert_string_equal(r.text, "-D|a=\"b c\"|--render|p.scad|");
     scad_result_free(&r);
 }
 
@@ -198,7 +218,7 @@ static void a_dash_in_front_is_no_option(void **state)
 {
     (void)state;
     struct scad_result r = {0};
-    assert_true(scad_export("-o.scad", play("echo \"$5\" > $2"), &r, NULL));
+    assert_true(run_export("-o.scad", play("echo \"$5\" > $2"), &r, NULL));
     assert_string_equal(r.text, "./-o.scad\n");
     scad_result_free(&r);
 }
@@ -227,7 +247,8 @@ static void cancelling_kills_the_whole_family(void **state)
     int done = 0;
     uv_loop_init(&loop);
     double start = clock_seconds();
-    timer.data = scad_start(&loop, "p.scad", play(script), count_done, &done);
+    const struct scad_options options = {.program = play(script)};
+    timer.data = scad_start(&loop, "p.scad", &options, count_done, &done);
     assert_true(clock_seconds() - start < 1);
     uv_timer_init(&loop, &timer);
     uv_timer_start(&timer, cancel, 100, 0);
@@ -252,7 +273,7 @@ static void includes_are_known_without_a_rule(void **state)
                                     "x = 1 < 2; include <> include <far.scad");
     write_text(in_folder("a.scad"), "include <p.scad> include <sub/../a.scad>");
     write_text(in_folder("sub/b.scad"), "use <../a.scad> use <missing.scad>");
-    assert_false(scad_export(in_folder("p.scad"), play("echo 'ERROR: no' >&2; exit 1"), &r, NULL));
+    assert_false(run_export(in_folder("p.scad"), play("echo 'ERROR: no' >&2; exit 1"), &r, NULL));
     assert_int_equal(r.file_count, 4);
     assert_string_equal(r.files[0], in_folder("p.scad"));
     assert_string_equal(r.files[1], in_folder("a.scad"));
@@ -273,7 +294,7 @@ static void signals_end_openscad_first(void **state)
         if (child == 0) {
             struct scad_result r = {0};
             signal(numbers[i], SIG_DFL);
-            scad_export("p.scad", program, &r, NULL);
+            run_export("p.scad", program, &r, NULL);
             _exit(0);
         }
         for (int wait = 0; wait < 1000 && access(in_folder("begun"), F_OK) != 0; wait++)
@@ -300,12 +321,12 @@ static void the_real_program(void **state)
     static const char good[] = "for (i = [0 : 2]) translate([i, 0, 0]) cube(1);";
     static const char bad[] = "cube(1);\ncube(2\n";
     assert_true(file_write(path, good, strlen(good), NULL));
-    assert_true(scad_export(path, "openscad", &r, &err));
+    assert_true(run_export(path, "openscad", &r, &err));
     assert_non_null(strstr(r.text, "cube(size = [1, 1, 1]"));
     assert_int_equal(r.file_count, 1);
     scad_result_free(&r);
     assert_true(file_write(path, bad, strlen(bad), NULL));
-    assert_false(scad_export(path, "openscad", &r, &err));
+    assert_false(run_export(path, "openscad", &r, &err));
     assert_memory_equal(err.text, path, strlen(path));
     assert_non_null(strstr(err.text, "real.scad:4: Parser error"));
     scad_result_free(&r);
@@ -325,6 +346,7 @@ int main(void)
         TEST(of_endless_messages_the_newest_stay),
         TEST(missing_program_is_named),
         TEST(program_comes_from_the_environment),
+        TEST(arguments_are_handed_on),
         TEST(a_dash_in_front_is_no_option),
         TEST(cancelling_kills_the_whole_family),
         TEST(includes_are_known_without_a_rule),

@@ -1,0 +1,96 @@
+# render_scad.sh PROGRAM SOURCE - .scad files: what reaches openscad, played by a script, and what it
+# says.
+render=$1
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failed=0
+
+fault() {
+    echo "FAILED: $*"
+    failed=1
+}
+
+# Writes the arguments but its own -o and -d, and a model.
+cat >fake <<'END'
+#!/bin/sh
+out=$2
+shift 4
+printf '%s\n' "$@" >arguments
+cat said >&2
+if [ -e model ]; then cp model "$out"; else echo 'cube(size = [1, 1, 1]);' >"$out"; fi
+END
+chmod +x fake
+: >said
+echo 'cube();' >a.scad
+export OPENSCAD=/none
+
+# passes EXPECTED OPTIONS...: what openscad gets, words parted by "|"
+passes() {
+    expected=$1
+    shift
+    "$render" --openscad=./fake -o out.png "$@" a.scad 2>stderr || fault "$*: $(cat stderr)"
+    got=$(tr '\n' '|' <arguments)
+    [ "$got" = "$expected" ] || fault "$*: openscad gets '$got'"
+    rm -f out.png
+}
+
+passes 'a.scad|'
+passes '-D|x=1|-D|s="a b"|a.scad|' -D x=1 '-Ds="a b"'
+echo '{}' >sets.json
+passes '-p|sets.json|-P|big one|a.scad|' -p sets.json -P 'big one'
+passes '--render|a.scad|' --render
+passes '--render|a.scad|' --render=cgal
+passes 'a.scad|' --preview=throwntogether
+passes 'a.scad|' --render --preview
+passes '-m|make -s|a.scad|' -m 'make -s'
+
+# Messages: all of them, none but errors, or the first warning as the reason to stop.
+printf 'ECHO: 5\nWARNING: odd thing in file a.scad, line 7\n' >said
+"$render" --openscad ./fake -o out.png a.scad 2>stderr || fault 'messages: failed'
+cmp -s said stderr || fault "messages: '$(cat stderr)'"
+"$render" --openscad ./fake -q -o out.png a.scad 2>stderr || fault '-q: failed'
+[ -s stderr ] && fault "-q: '$(cat stderr)'"
+rm -f out.png
+"$render" --openscad ./fake --hardwarnings -o out.png a.scad 2>stderr
+[ $? -eq 1 ] && [ ! -e out.png ] || fault '--hardwarnings: not stopped'
+grep -q '^a.scad:7: odd thing$' stderr || fault "--hardwarnings: '$(cat stderr)'"
+
+# Wrong use
+expect() {
+    text=$1
+    shift
+    "$render" -o out.png "$@" 2>stderr
+    [ $? -eq 1 ] && [ ! -e out.png ] || fault "$*: not refused"
+    [ "$(wc -l <stderr)" -eq 1 ] && grep -qF -- "$text" stderr || fault "$*: '$(cat stderr)'"
+}
+: >said
+for definition in x =1 x= ''; do
+    expect "-D: expected VARIABLE=VALUE, got '$definition'" -D "$definition" a.scad
+done
+expect '-p: none.json: No such file' -p none.json -P set a.scad
+expect '-P set: expected the file' -P set a.scad
+expect '-p sets.json: expected the name' -p sets.json a.scad
+expect "--render: expected nothing, cgal or force, got 'x'" --render=x a.scad
+expect "--preview: expected nothing or throwntogether, got 'x'" --preview=x a.scad
+expect '/none: no such file' a.scad
+expect './gone: no such file' --openscad=./gone a.scad
+
+# What only a .scad has is told for a .csg, which is drawn all the same.
+echo 'cube(size = [1, 1, 1]);' >a.csg
+"$render" -D x=1 -o out.png a.csg 2>stderr && [ -s out.png ] || fault '-D: a .csg is not drawn'
+[ "$(cat stderr)" = 'warning: a.csg: -D does nothing: only a .scad file has variables' ] ||
+    fault "-D: '$(cat stderr)'"
+
+# -m for a .csg
+cat >maker <<'END'
+#!/bin/sh
+echo "making $1"
+printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' >"$1"
+END
+chmod +x maker
+echo "import(file = \"it's.off\"); import(file = \"again.off\");" >b.csg
+"$render" -m ./maker -o - b.csg >out.png 2>stderr || fault '-m: failed'
+[ "$(sort stderr | tr '\n' '|')" = "making again.off|making it's.off|" ] || fault "-m: '$(cat stderr)'"
+[ -e "it's.off" ] && [ "$(head -c 4 out.png | tail -c 3)" = PNG ] || fault '-m: nothing made'
+exit $failed
