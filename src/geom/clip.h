@@ -1,9 +1,9 @@
 // clip.h - 2D booleans, offsets and sums, on the Clipper library with OpenSCAD's grid.
 //
 // Coordinates are cut off to multiples of 1/65536, as OpenSCAD does it, so that vertices come out
-// equal to OpenSCAD's. Results are clean. Coordinates beyond Clipper's range, more points or
-// crossings than CLIP_POINTS_MOST, and shapes that would keep Clipper busy for more than minutes
-// make a function return false with an empty result. All functions are thread-safe.
+// equal to OpenSCAD's. Results are clean. Coordinates beyond Clipper's range, more points than
+// CLIP_POINTS_MOST, hundred thousands of crossings and shapes that would keep Clipper busy for more
+// than minutes make a function return false with an empty result. All functions are thread-safe.
 #pragma once
 #include "geom/outline.h"
 #include "geom/primitives.h"
@@ -13,6 +13,8 @@ extern "C" {
 #endif
 
 enum { CLIP_POINTS_MOST = 1 << 24 };
+#define CLIP_REFUSED                                                                               \
+    "is too large, or crosses itself too often" // what to say when it returns false
 
 // The shape of arbitrary paths: inside is what lies in an odd number of them.
 bool clip_clean(struct outline *out, const struct outline *in);

@@ -11,7 +11,8 @@ extern "C" {
 
 namespace clip
 {
-static constexpr double VISITS_FEW = 1 << 25;          // two seconds
+static constexpr double VISITS_FEW = 1 << 25; // two seconds
+static constexpr size_t TRIES_MORE = 1 << 16;
 static constexpr double VISITS_MOST = 4.0 * (1 << 30); // some minutes
 
 using side = std::pair<const IntPoint *, const IntPoint *>;
@@ -36,21 +37,33 @@ static bool cross_each_other(side s, side t)
            left_of(t, *s.first) * left_of(t, *s.second) < 0;
 }
 
-void check_crossings(const Paths &a, const Paths &b)
+double crossing_count(const std::vector<const Paths *> &shapes, double least)
 {
-    constexpr double most = CLIP_POINTS_MOST;
-    double count = point_count(a) + point_count(b), pairs = count * count / 2;
-    if (pairs <= most)
-        return;
+    double count = 0;
+    for (const Paths *paths : shapes)
+        count += point_count(*paths);
+    double pairs = count * count / 2;
+    if (pairs <= least)
+        return 0;
     std::vector<side> sides;
-    auto add = [&](const IntPoint &p, const IntPoint &q) { sides.emplace_back(&p, &q); };
-    for_sides(a, add);
-    for_sides(b, add);
-    size_t hits = 0;
+    for (const Paths *paths : shapes)
+        for_sides(*paths,
+                  [&](const IntPoint &p, const IntPoint &q) { sides.emplace_back(&p, &q); });
+    // Few hits are chance, so more pairs are tried then.
+    size_t hits = 0, tries = 0, most = sides.size();
     uint64_t random = 0;
-    for (size_t i = 0; i < sides.size(); i++)
-        hits += cross_each_other(sides[random_next(&random) % sides.size()], sides[i]);
-    if (pairs * static_cast<double>(hits) / count > most)
+    for (; tries < most; tries++) {
+        hits += cross_each_other(sides[random_next(&random) % sides.size()],
+                                 sides[tries % sides.size()]);
+        if (hits == 1)
+            most = sides.size() + TRIES_MORE;
+    }
+    return pairs * static_cast<double>(hits) / static_cast<double>(tries);
+}
+
+void check_crossings(const Paths &a, const Paths &b, double most)
+{
+    if (crossing_count({&a, &b}, most) > most)
         refuse("too many crossings");
 }
 

@@ -55,7 +55,7 @@ Paths paths_of(const struct outline *o)
 
 Paths executed(ClipType type, Paths subject, Paths others, PolyFillType fill)
 {
-    check_crossings(subject, others);
+    check_crossings(subject, others, fill == pftEvenOdd ? CROSSINGS_MOST_ODD : CROSSINGS_MOST);
     bool sideways = better_sideways(subject, others);
     if (sideways) {
         turn_sideways(&subject);

@@ -82,7 +82,7 @@ Paths offset(Paths paths, double distance, enum clip_join join, struct detail de
     if (join == CLIP_ROUND && arc_points(paths, n) > POINTS_MOST)
         refuse("too many points");
     Paths moved = moved_sides(paths, delta);
-    check_crossings(moved, {});
+    check_crossings(moved, {}, CROSSINGS_MOST);
     bool sideways = better_sideways(moved, {});
     if (sideways)
         turn_sideways(&paths);
@@ -114,7 +114,7 @@ bool clip_stroke(struct outline *out, const struct vec2 *line, uint32_t count, d
         double pieces = M_PI / std::acos(1 - ARC_TOLERANCE / std::fmax(std::fabs(delta), 1));
         if (!(pieces + arc_points(lines, pieces) <= POINTS_MOST)) // a single point is a circle
             refuse("too many points");
-        check_crossings(lines, {});
+        check_crossings(lines, {}, CROSSINGS_MOST);
         ClipperOffset offset(STROKE_MITRE_LIMIT, ARC_TOLERANCE);
         offset.AddPaths(lines, join_type(join), end_type(cap));
         offset.Execute(stroke, delta);

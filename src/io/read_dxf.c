@@ -251,7 +251,8 @@ static void make_outline(struct drawing *d, struct outline *out)
     dxf_lines_join(&d->lines, &paths);
     *out = (struct outline){0};
     if (d->too_far || !clip_clean(out, &paths)) {
-        messages_add(d->messages, MESSAGE_WARNING, d->place, "coordinates are too large: left out");
+        messages_add(d->messages, MESSAGE_WARNING, d->place,
+                     "the drawing " CLIP_REFUSED ": left out");
         outline_free(out);
         out->clean = true;
     }

@@ -200,7 +200,8 @@ bool read_svg(const char *path, const char *data, size_t size, const struct svg_
         struct outline shape = {0};
         to_millimetres(&r);
         if (!unite(&r, &shape)) {
-            messages_add(messages, MESSAGE_WARNING, r.place, "coordinates are too large: left out");
+            messages_add(messages, MESSAGE_WARNING, r.place,
+                         "the drawing " CLIP_REFUSED ": left out");
             shape = (struct outline){.clean = true};
         }
         if (r.left_out)

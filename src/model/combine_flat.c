@@ -16,7 +16,7 @@ static bool flat_only(const struct operands *o)
 static void take(struct operands *o, struct outline *result, bool done, struct value *out)
 {
     if (!done)
-        builder_warn(o->b, o->args->node, "%s(): the shape is too large; left out",
+        builder_warn(o->b, o->args->node, "%s(): the shape " CLIP_REFUSED "; left out",
                      o->args->node->name);
     outline_free(&out->outline);
     out->outline = *result;

@@ -102,7 +102,7 @@ static void sum_flat(struct operands *o, struct value *out)
         out->outline = sum;
     }
     if (!done)
-        builder_warn(o->b, o->args->node, "minkowski(): a flat shape is too large; left out");
+        builder_warn(o->b, o->args->node, "minkowski(): a flat shape " CLIP_REFUSED "; left out");
 }
 
 // All parts of one with all parts of the other.

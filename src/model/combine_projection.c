@@ -140,7 +140,7 @@ void combine_projection(struct operands *o, struct value *out)
     }
     operands_become(o, NULL, out);
     if (!done)
-        builder_warn(o->b, o->args->node, "projection(): the shape is too large; left out");
+        builder_warn(o->b, o->args->node, "projection(): the shape " CLIP_REFUSED "; left out");
     if (cut && !flat.path_count && o->kind == GEOMETRY_SOLID)
         builder_warn(o->b, o->args->node, "projection() cuts nothing at z = 0");
     flat.clean = true;

@@ -111,7 +111,7 @@ void flat_polygon(struct builder *b, const struct args *args, struct outline *ou
             outline_append(&paths, &points);
         }
         if (!clip_clean(out, &paths))
-            builder_warn(b, args->node, "polygon() is too large; left out");
+            builder_warn(b, args->node, "polygon() " CLIP_REFUSED "; left out");
     }
     outline_free(&points);
     outline_free(&paths);

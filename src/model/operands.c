@@ -28,7 +28,7 @@ static void fold_flat(struct operands *o, enum term_op op, struct outline *out)
                 : op == TERM_INTERSECTION ? clip_intersection(out, shapes, count)
                                           : clip_difference(out, shapes, count);
     if (!done)
-        builder_warn(o->b, o->args->node, "%s(): a flat shape is too large; left out",
+        builder_warn(o->b, o->args->node, "%s(): a flat shape " CLIP_REFUSED "; left out",
                      o->args->node->name);
     free(shapes);
 }

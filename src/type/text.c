@@ -166,7 +166,7 @@ bool text_outline(struct outline *out, const struct text_line *line, struct plac
     if (!wrong) {
         struct layout layout = layout_make(&row, line, place, messages);
         if (!draw(out, &row, line, &layout))
-            wrong = "it is too large";
+            wrong = "it " CLIP_REFUSED;
     }
     letters_free(&row);
     if (wrong)

@@ -72,6 +72,23 @@ for model in 'offset(r = 1e9, $fn = 1e9) square(1);' 'resize([1e300, 1e300, 1e30
     echo "$model" | draws 0 ''
 done
 
+# Everything upon everything else
+{
+    echo 'difference() { square(50); polygon(points = ['
+    awk 'BEGIN { srand(1); while (n++ < 3000) printf "[%g, %g], ", 100 * rand(), 100 * rand() }'
+    echo ']); }'
+} | draws 0 'model.csg:1:28: polygon() is too large, or crosses itself too often; left out'
+for cut in true false; do
+    {
+        echo "projection(cut = $cut) {"
+        awk 'BEGIN { srand(1); while (n++ < 5000) {
+            printf "multmatrix([[1, 0, 0, %g], [0, 1, 0, %g], ", 100 * rand(), 100 * rand()
+            printf "[0, 0, 1, 0]]) sphere(%g);\n", 1 + 9 * rand() } }'
+        echo '}'
+    } | draws 0 ''
+done
+{ printf 'text("' && repeat 12000 a && echo '", spacing = 0);'; } | draws 0 ''
+
 # Nesting and length
 for node in 'group(){' 'hull(){' 'projection(){' 'resize([1, 0, 0]){'; do
     { repeat 20000 "$node" && echo 'cube();' && repeat 20000 '}'; } | draws 0 ''

@@ -1,5 +1,6 @@
 // test_clip.c - 2D booleans, offsets and sums against what OpenSCAD 2021.01 exports.
 #include "base/angle.h"
+#include "base/hash.h"
 #include "geom/clip.h"
 #include "unit.h"
 
@@ -353,7 +354,7 @@ static void tangles_are_refused(void **state)
     (void)state;
     struct outline o = {0}, out;
     uint64_t random = 1;
-    for (uint32_t i = 0; i < 20000; i++) { // some 40 million crossings
+    for (uint32_t i = 0; i < 2000; i++) { // some 400,000 crossings
         uint64_t r = random = random * 6364136223846793005u + 1442695040888963407u;
         outline_add(&o, (struct vec2){(double)(r >> 48), (double)(r >> 32 & 0xffff)});
     }
@@ -367,6 +368,48 @@ static void tangles_are_refused(void **state)
     assert_int_equal(out.path_count, 0);
     outline_free(&a);
     outline_free(&b);
+}
+
+// 20,000 discs upon each other cross some 10 million times, but only few of them in the end.
+static void heaps_of_shapes_are_quick(void **state)
+{
+    (void)state;
+    enum { DISCS = 20000 };
+    struct outline *discs = mem_zalloc(DISCS * sizeof *discs), all, apart;
+    const struct outline **list = mem_alloc(DISCS * sizeof *list);
+    uint64_t random = 3;
+    for (uint32_t i = 0; i < DISCS; i++) {
+        double x = (double)(random_next(&random) % 1000), y = (double)(random_next(&random) % 1000);
+        for (uint32_t k = 0; k < 16; k++)
+            outline_add(&discs[i], (struct vec2){x + 40 * cos(acos(-1) * k / 8),
+                                                 y + 40 * sin(acos(-1) * k / 8)});
+        outline_close(&discs[i]);
+        discs[i].clean = true;
+        list[i] = &discs[i];
+    }
+    assert_true(clip_union(&all, list, DISCS));
+    assert_int_equal(all.path_count, 1);
+    struct box box = outline_bounds(&all);
+    assert_true(fabs(box.min.x + 40) < 1e-4 && fabs(box.max.y - 1039) < 1e-4);
+    assert_true(outline_area(&all) > 1000 * 1000 && outline_area(&all) < 1080 * 1080);
+
+    // The same in two steps, of which the second is not in pieces.
+    struct outline halves[2];
+    assert_true(clip_union(&halves[0], list, DISCS / 2));
+    assert_true(clip_union(&halves[1], list + DISCS / 2, DISCS / 2));
+    const struct outline *two[2] = {&halves[0], &halves[1]};
+    assert_true(clip_union(&apart, two, 2));
+    assert_true(fabs(outline_area(&apart) - outline_area(&all)) < 1e-3 * 1e-2 * 1080);
+    assert_true(clip_difference(&halves[0], list, DISCS)); // the first less all others
+    assert_true(outline_area(&halves[0]) < outline_area(&discs[0]));
+    outline_free(&apart);
+    for (uint32_t i = 0; i < DISCS; i++)
+        outline_free(&discs[i]);
+    outline_free(&halves[0]);
+    outline_free(&halves[1]);
+    outline_free(&all);
+    free(discs);
+    free(list);
 }
 
 int main(void)
@@ -387,6 +430,7 @@ int main(void)
         cmocka_unit_test(what_is_out_of_range_is_refused),
         cmocka_unit_test(large_shapes_are_quick),
         cmocka_unit_test(tangles_are_refused),
+        cmocka_unit_test(heaps_of_shapes_are_quick),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -218,7 +218,8 @@ static void what_cannot_be_drawn_is_said(void **state)
     line.size = 1e300;
     assert_false(set(&line));
     assert_true(out.clean && out.path_count == 0);
-    assert_string_equal(messages.items[0].text, "a.csg:3:5: text: not drawn: it is too large");
+    assert_string_equal(messages.items[0].text,
+                        "a.csg:3:5: text: not drawn: it is too large, or crosses itself too often");
 }
 
 static void any_letter_of_unicode_is_taken(void **state)
