@@ -2,6 +2,7 @@
 #include "app/viewer.h"
 #include "base/mem.h"
 #include "base/options.h"
+#include "render/scheme_file.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -24,8 +25,9 @@ static const struct option options[] = {
     {"camera", 0, OPTION_TEXT, "NUMBERS", "x,y,z,rx,ry,rz,distance or eye and centre x,y,z,x,y,z",
      &given.camera, 0, 0},
     {"projection", 0, OPTION_TEXT, "KIND", "o(rtho) or p(erspective)", &given.projection, 0, 0},
-    {"colorscheme", 0, OPTION_TEXT, "NAME", "one of OpenSCAD's, Cornfield if not given",
-     &given.scheme, 0, 0},
+    {"colorscheme", 0, OPTION_TEXT, "NAME",
+     "one of OpenSCAD's, Cornfield if not given,\nor a file FILE.json with one", &given.scheme, 0,
+     0},
     {"size", 0, OPTION_SIZE, "W,H", "of the window in pixels, 1024,768 if not given", given.size,
      64, 16384},
     {"device", 0, OPTION_TEXT, "auto|cpu", "what draws", &given.device, 0, 0},
@@ -44,6 +46,8 @@ static const struct option options[] = {
      0},
     {"stats", 0, OPTION_FLAG, NULL, "print the times of frames and loads", &given.stats, 0, 0},
 };
+
+static struct scheme own_scheme; // of a file
 
 static bool check_device(struct error *err)
 {
@@ -74,20 +78,20 @@ static bool check_file(const char *path, struct error *err)
 
 static bool set_options(struct viewer_options *o, struct error *err)
 {
-    *o = (struct viewer_options){.openscad = given.openscad,
-                                 .camera = CAMERA_DEFAULTS,
-                                 .fixed_camera = given.camera != NULL,
-                                 .scheme =
-                                     scheme_find(given.scheme ? given.scheme : "Cornfield", err),
-                                 .epsilon = given.epsilon,
-                                 .import_folders = given.import_folders.items,
-                                 .import_folder_count = given.import_folders.count,
-                                 .threads = given.threads,
-                                 .memory = (size_t)given.megabytes << 20,
-                                 .width = given.size[0],
-                                 .height = given.size[1],
-                                 .watch = !given.no_watch,
-                                 .stats = given.stats};
+    *o = (struct viewer_options){
+        .openscad = given.openscad,
+        .camera = CAMERA_DEFAULTS,
+        .fixed_camera = given.camera != NULL,
+        .scheme = scheme_choose(given.scheme ? given.scheme : "Cornfield", &own_scheme, err),
+        .epsilon = given.epsilon,
+        .import_folders = given.import_folders.items,
+        .import_folder_count = given.import_folders.count,
+        .threads = given.threads,
+        .memory = (size_t)given.megabytes << 20,
+        .width = given.size[0],
+        .height = given.size[1],
+        .watch = !given.no_watch,
+        .stats = given.stats};
     return o->scheme && check_device(err) &&
            (!given.camera || camera_parse(&o->camera, given.camera, err)) &&
            (!given.projection || camera_parse_projection(&o->camera, given.projection, err));

@@ -147,7 +147,7 @@ bool request_make(struct request *out, const struct given *given, struct error *
         !set_mode(out, given, err) || !check_device(given, err))
         return false;
     out->view = view_parse(given->view);
-    out->scheme = scheme_find(given->scheme, err);
+    out->scheme = scheme_choose(given->scheme, &out->own_scheme, err);
     return out->scheme && set_size(out, given, err) && set_camera(out, given, err) &&
            set_outputs(out, given, err);
 }

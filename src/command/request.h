@@ -4,7 +4,7 @@
 #include "command/options.h"
 #include "command/view.h"
 #include "render/camera.h"
-#include "render/scheme.h"
+#include "render/scheme_file.h"
 
 struct output {
     const char *path; // "-": standard output
@@ -23,7 +23,8 @@ struct request {       // borrows from the command line
     struct camera camera;
     bool viewall, autocenter;
     struct view_options view;
-    const struct scheme *scheme;
+    const struct scheme *scheme; // of OpenSCAD's, or own_scheme
+    struct scheme own_scheme;    // of a file
     enum model_mode mode;
     double epsilon; // negative: the default for the model
     uint32_t threads;

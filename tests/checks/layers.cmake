@@ -16,7 +16,7 @@ set(may_app base csg geom hcsg scad io type model render slice command)
 set(folders base csg geom hcsg scad io type model render slice command app)
 
 # Libraries with few homes: a pattern of the header, then the paths that may include it.
-set(libraries glfw epoxy glu egl imgui uv clipper cgal qhull zip expat harfbuzz)
+set(libraries glfw epoxy glu egl imgui uv clipper cgal qhull zip expat harfbuzz cjson)
 set(glfw_header "^GLFW/")
 set(glfw_home "^app/")
 set(epoxy_header "^(epoxy/|GL/gl\\.|GL/glcore|GL/glext)")
@@ -41,6 +41,9 @@ set(expat_header "^expat\\.h")
 set(expat_home "^io/")
 set(harfbuzz_header "^(hb|hb-ft)\\.h")
 set(harfbuzz_home "^type/")
+
+set(cjson_header "^cjson/")
+set(cjson_home "^render/scheme_file")
 
 # The engine below these leaves the process alone: it returns errors, and starts nothing.
 set(engine "^(base|csg|geom|hcsg|io|type|model|render|slice)/")
