@@ -5,6 +5,7 @@
 #include "command/build.h"
 #include "command/input.h"
 #include "command/output.h"
+#include "command/reference.h"
 #include "command/summary.h"
 
 #include <string.h>
@@ -24,13 +25,33 @@ static double lap(double *start)
 }
 
 // One output that cannot be written does not keep the others from it.
-static int write_outputs(const struct request *r, const struct drawn *d, const struct model *m)
+static int write_outputs(const struct request *r, const struct drawn *d, const struct view *view)
 {
     int code = EXIT_FINE;
     struct error err;
     for (uint32_t i = 0; i < r->output_count; i++)
-        if (!output_write(&r->outputs[i], d, m, &err))
+        if (r->outputs[i].per_view == (view != NULL) &&
+            !output_write(&r->outputs[i], d, view, &err))
             code = command_fail(&err, EXIT_OUTPUT);
+    return code;
+}
+
+// Draws and writes the views that have files of their own.
+static int write_views(const struct request *r, const struct model *m)
+{
+    int code = EXIT_FINE;
+    for (uint32_t i = 0; i < r->style.views.count; i++) {
+        const struct view *view = &r->style.views.items[i];
+        struct error err;
+        struct drawn drawn;
+        if (!request_draws(r, view) && !request_maps(r, view))
+            continue;
+        if (!drawn_make(&drawn, r, m, view, &err))
+            return command_fail(&err, EXIT_INPUT);
+        int one = write_outputs(r, &drawn, view);
+        code = one ? one : code;
+        drawn_free(&drawn);
+    }
     return code;
 }
 
@@ -52,13 +73,21 @@ static int produce(const struct request *r, const struct model *m, const struct 
 {
     struct error err;
     struct drawn drawn = {0};
-    if (request_draws(r) && !drawn_make(&drawn, r, m, &err))
+    if (!drawn_make(&drawn, r, m, NULL, &err))
         return command_fail(&err, EXIT_INPUT);
     times->draw = lap(lap_start);
-    int code = write_outputs(r, &drawn, m);
+    int code = write_outputs(r, &drawn, NULL), views = write_views(r, m);
+    code = code ? code : views;
     times->write = lap(lap_start);
-    if (code == EXIT_FINE && r->summary)
-        code = print_summary(&(struct summary){r, m, messages, &drawn, *times});
+    if (code == EXIT_FINE && r->style.reference) {
+        code = reference_check(r, &drawn, &err);
+        if (code)
+            command_fail(&err, code);
+    }
+    if ((code == EXIT_FINE || code == EXIT_CHECK) && r->summary) {
+        int printed = print_summary(&(struct summary){r, m, messages, &drawn, *times});
+        code = code ? code : printed;
+    }
     drawn_free(&drawn);
     return code;
 }

@@ -2,7 +2,7 @@
 #pragma once
 #include "command/request.h"
 
-enum { EXIT_FINE = 0, EXIT_INPUT = 1, EXIT_OUTPUT = 2 };
+enum { EXIT_FINE = 0, EXIT_INPUT = 1, EXIT_OUTPUT = 2, EXIT_CHECK = 3 };
 
 // Says on standard error what goes wrong.
 int command_run(const struct request *r);

@@ -7,6 +7,10 @@
 
 static const struct output_format formats[] = {
     {"png", OUTPUT_PICTURE, 0},
+    {"depthmap", OUTPUT_DEPTHMAP, 0},
+    {"pfm", OUTPUT_DEPTHS, 0},
+    {"normals", OUTPUT_NORMALS, 0},
+    {"ids", OUTPUT_IDS, 0},
     {"stl", OUTPUT_GEOMETRY, EXPORT_STL},
     {"off", OUTPUT_GEOMETRY, EXPORT_OFF},
     {"dxf", OUTPUT_GEOMETRY, EXPORT_DXF},

@@ -2,7 +2,15 @@
 #pragma once
 #include "model/export.h"
 
-enum output_kind { OUTPUT_PICTURE, OUTPUT_GEOMETRY };
+enum output_kind {
+    OUTPUT_PICTURE,
+    // What pixels show, as numbers:
+    OUTPUT_DEPTHMAP,
+    OUTPUT_DEPTHS,
+    OUTPUT_NORMALS,
+    OUTPUT_IDS,
+    OUTPUT_GEOMETRY,
+};
 
 struct output_format {
     const char *name;

@@ -2,6 +2,7 @@
 #include "command/options.h"
 
 #include "base/mem.h"
+#include "render/shot.h"
 
 enum { SIDE_MOST = 32768 };
 
@@ -11,14 +12,16 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
                           .size = {512, 512},
                           .scheme = "Cornfield",
                           .epsilon = -1,
-                          .megabytes = 256};
+                          .megabytes = 256,
+                          .samples = 1};
     const struct option options[] = {
         {"output", 'o', OPTION_LIST, "FILE",
          "write that file, what it is follows from its extension;\n"
          "- is standard output; may be given several times",
          &out->outputs, 0, 0},
-        {"export-format", 0, OPTION_TEXT, "png|stl|off|dxf",
-         "what to write, whatever the extension of FILE says: a picture, or\n"
+        {"export-format", 0, OPTION_TEXT, "png|depthmap|pfm|normals|ids|stl|off|dxf",
+         "what to write, whatever the extension of FILE says: a picture,\n"
+         "depths as grey (16 bits) or numbers, normals or leaves as colours, or\n"
          "the vertices of a model that is one object without booleans",
          &out->export_format, 0, 0},
         {"imgsize", 0, OPTION_SIZE, "W,H", "size of the picture in pixels (default 512,512)",
@@ -54,6 +57,29 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
         {"openscad", 0, OPTION_TEXT, "PROGRAM",
          "exports .scad files; if not given $OPENSCAD, or openscad on the PATH", &out->openscad, 0,
          0},
+        {"samples", 0, OPTION_COUNT, "N",
+         "smooth edges: the average of N pictures, their rays spread over each\n"
+         "pixel (1 to 64, default 1)",
+         &out->samples, 1, SAMPLES_MOST},
+        {"no-background", 0, OPTION_FLAG, NULL, "leave the background out: a PNG with alpha",
+         &out->no_background, 0, 0},
+        {"fit", 0, OPTION_OPTIONAL, "MARGIN",
+         "fill the picture with what shows; MARGIN in pixels or percent of the\n"
+         "shorter side stays free (default 5%)",
+         &out->fit, 0, 0},
+        {"views", 0, OPTION_TEXT, "NAMES",
+         "iso,diagonal,top,bottom,left,right,front,back: several views in one\n"
+         "picture, or each in a file: %s in FILE is its name",
+         &out->views, 0, 0},
+        {"shading", 0, OPTION_TEXT, "ao|outline",
+         "darken corners (ambient occlusion), draw lines along edges; or both:\nao,outline",
+         &out->shading, 0, 0},
+        {"reference", 0, OPTION_TEXT, "PNG",
+         "compare the picture with this one; exit code 3 if it differs", &out->reference, 0, 0},
+        {"threshold", 0, OPTION_TEXT, "N,P%",
+         "differences up to N of 255 do not count, nor do they in P percent of\n"
+         "the pixels (default 0,0%)",
+         &out->threshold, 0, 0},
         {"device", 0, OPTION_TEXT, "auto|cpu", "what draws", &out->device, 0, 0},
         {"threads", 0, OPTION_COUNT, "N", "threads to draw with; 0: one per processor (default)",
          &out->threads, 0, 256},

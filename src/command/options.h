@@ -17,6 +17,10 @@ struct given {
     // For openscad:
     const char *openscad, *parameter_file, *parameter_set, *make_command;
     struct option_list definitions;
+    uint32_t samples;
+    bool no_background;
+    struct option_list fit; // without a value ""
+    const char *views, *shading, *reference, *threshold;
 };
 
 enum options_result given_parse(struct given *out, int argc, char **argv, struct error *err);

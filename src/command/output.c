@@ -1,85 +1,121 @@
-// output.c - what is asked for, drawn and written.
+// output.c - what was drawn, written to files.
 #include "command/output.h"
 
+#include "base/mem.h"
+#include "io/write_pfm.h"
 #include "io/write_png.h"
-#include "render/extent.h"
+#include "render/map_image.h"
 
-bool request_draws(const struct request *r)
-{
-    bool draws = r->summary;
-    for (uint32_t i = 0; i < r->output_count; i++)
-        draws |= r->outputs[i].format->kind == OUTPUT_PICTURE;
-    return draws;
-}
+#include <stdlib.h>
+#include <string.h>
 
-// What --viewall and --autocenter show: as in OpenSCAD the whole shapes of a preview, and of
-// geometry what is there.
-static struct box box_to_show(const struct model *m, struct cpu_device *device,
-                              const struct render_settings *settings)
-{
-    return m->mode == MODEL_RENDER && !m->flat ? extent_find(device, m, settings) : m->bounds;
-}
-
-static bool place_camera(struct camera *c, const struct request *r, struct box box,
+static bool write_pixels(const char *path, const struct drawn *d, enum png_kind kind,
+                         const void *pixels, const struct png_note *notes, uint32_t note_count,
                          struct error *err)
 {
-    *c = r->camera;
-    if (r->autocenter)
-        camera_autocenter(c, box);
-    if (r->viewall)
-        camera_viewall(c, box);
-    if (c->distance > 0)
-        return true;
-    error_set(err, "--camera: the distance must be above 0");
-    return false;
+    return write_png_picture(path,
+                             &(struct png_picture){.width = d->width,
+                                                   .height = d->height,
+                                                   .kind = kind,
+                                                   .pixels = pixels,
+                                                   .notes = notes,
+                                                   .note_count = note_count},
+                             err);
 }
 
-static void draw(struct drawn *out, const struct request *r, const struct model *m,
-                 struct cpu_device *device, const struct render_settings *settings)
+static bool write_depthmap(const char *path, const struct drawn *d, struct error *err)
 {
-    struct rays rays = camera_rays(&out->camera, r->width, r->height, m->bounds);
-    const struct overlay overlay = {.scheme = r->scheme,
-                                    .centre = out->camera.centre,
-                                    .distance = out->camera.distance,
-                                    .axes = r->view.axes,
-                                    .scales = r->view.scales,
-                                    .crosshairs = r->view.crosshairs};
-    struct shader shader;
-    shader_init(&shader, m, r->scheme);
-    out->picture.overlay = &overlay;
-    picture_draw(&out->picture, device, &shader, &rays, settings, &out->stats);
-    out->picture.overlay = NULL;
-    shader_free(&shader);
+    struct depth_range range = map_depth_range(&d->map, &d->rays);
+    char nearest[32], farthest[32];
+    snprintf(nearest, sizeof nearest, "%.9g", range.nearest);
+    snprintf(farthest, sizeof farthest, "%.9g", range.farthest);
+    const struct png_note notes[] = {
+        {"Depth nearest", nearest},
+        {"Depth farthest", farthest},
+        {"Depth unit", "mm from the eye plane: 65535 nearest, 1 farthest, 0 nothing"},
+    };
+    bool nothing = range.nearest > range.farthest;
+    uint16_t *greys = mem_alloc(map_pixels(&d->map) * sizeof *greys);
+    map_greys(&d->map, &d->rays, range, greys);
+    bool ok = write_pixels(path, d, PNG_KIND_GREY16, greys, notes,
+                           nothing ? 0 : (uint32_t)array_count(notes), err);
+    free(greys);
+    return ok;
 }
 
-bool drawn_make(struct drawn *out, const struct request *r, const struct model *m,
-                struct error *err)
+static bool write_depths(const char *path, const struct drawn *d, struct error *err)
 {
-    const struct render_settings settings = {
-        .epsilon = model_epsilon(m, r->epsilon), .threads = r->threads, .memory = r->memory};
-    struct cpu_device *device = cpu_device_new();
-    *out = (struct drawn){0};
-    bool placed = place_camera(&out->camera, r, box_to_show(m, device, &settings), err);
-    if (placed)
-        draw(out, r, m, device, &settings);
-    cpu_device_delete(device);
-    return placed;
+    float *depths = mem_alloc(map_pixels(&d->map) * sizeof *depths);
+    map_depths(&d->map, &d->rays, depths);
+    bool ok = write_pfm(path, depths, d->width, d->height, err);
+    free(depths);
+    return ok;
 }
 
-void drawn_free(struct drawn *d)
+static bool write_normals(const char *path, const struct drawn *d, struct error *err)
 {
-    picture_free(&d->picture);
-    *d = (struct drawn){0};
+    size_t n = map_pixels(&d->map);
+    float(*normals)[3] = mem_alloc(n * sizeof *normals);
+    uint8_t *rgb = mem_alloc(3 * n);
+    map_normals(&d->map, &d->shader, &d->rays, d->settings.threads, normals);
+    map_normal_colours((const float(*)[3])normals, n, rgb);
+    bool ok = write_pixels(path, d, PNG_KIND_RGB, rgb, NULL, 0, err);
+    free(normals);
+    free(rgb);
+    return ok;
 }
 
-bool output_write(const struct output *o, const struct drawn *d, const struct model *m,
-                  struct error *err)
+static bool write_ids(const char *path, const struct drawn *d, struct error *err)
 {
-    switch (o->format->kind) {
+    uint8_t *rgb = mem_alloc(3 * map_pixels(&d->map));
+    char *legend = map_legend(&d->map, d->model);
+    map_ids(&d->map, d->model, rgb);
+    bool ok =
+        write_pixels(path, d, PNG_KIND_RGB, rgb, &(struct png_note){"Legend", legend}, 1, err);
+    free(legend);
+    free(rgb);
+    return ok;
+}
+
+// The path with the name of the view in place of "%s". The caller frees it.
+static char *path_of_view(const char *path, const struct view *view)
+{
+    const char *mark = strstr(path, VIEW_MARK);
+    size_t size = strlen(path) + strlen(view->name) + 1;
+    char *name = mem_alloc(size);
+    snprintf(name, size, "%.*s%s%s", (int)(mark - path), path, view->name,
+             mark + strlen(VIEW_MARK));
+    return name;
+}
+
+static bool write_as(enum output_kind kind, enum export_format geometry, const char *path,
+                     const struct drawn *d, struct error *err)
+{
+    switch (kind) {
     case OUTPUT_PICTURE:
-        return write_png(o->path, d->picture.rgb, d->picture.width, d->picture.height, err);
+        return write_pixels(path, d, d->channels == 4 ? PNG_KIND_RGBA : PNG_KIND_RGB, d->pixels,
+                            NULL, 0, err);
+    case OUTPUT_DEPTHMAP:
+        return write_depthmap(path, d, err);
+    case OUTPUT_DEPTHS:
+        return write_depths(path, d, err);
+    case OUTPUT_NORMALS:
+        return write_normals(path, d, err);
+    case OUTPUT_IDS:
+        return write_ids(path, d, err);
     case OUTPUT_GEOMETRY:
         break;
     }
-    return model_export(m, o->format->geometry, o->path, err);
+    return model_export(d->model, geometry, path, err);
+}
+
+bool output_write(const struct output *o, const struct drawn *d, const struct view *view,
+                  struct error *err)
+{
+    if (!view)
+        return write_as(o->format->kind, o->format->geometry, o->path, d, err);
+    char *path = path_of_view(o->path, view);
+    bool ok = write_as(o->format->kind, o->format->geometry, path, d, err);
+    free(path);
+    return ok;
 }

@@ -8,8 +8,6 @@
 #include <strings.h>
 #include <unistd.h>
 
-enum { PIXELS_MOST = 1 << 26 };
-
 static bool set_input(struct request *out, const struct given *given, struct error *err)
 {
     if (given->operand_count != 1) {
@@ -55,6 +53,11 @@ static bool set_openscad(struct request *out, const struct given *given, struct 
     return true;
 }
 
+static bool is_map(enum output_kind kind)
+{
+    return kind != OUTPUT_PICTURE && kind != OUTPUT_GEOMETRY;
+}
+
 static bool set_outputs(struct request *out, const struct given *given, struct error *err)
 {
     const struct output_format *asked = NULL;
@@ -64,7 +67,7 @@ static bool set_outputs(struct request *out, const struct given *given, struct e
         error_set(err, "--export-format: expected %s, got '%s'", names, given->export_format);
         return false;
     }
-    if (!given->outputs.count && !given->summary) {
+    if (!given->outputs.count && !given->summary && !given->reference) {
         error_set(err, "no output; give -o FILE.png");
         return false;
     }
@@ -80,7 +83,13 @@ static bool set_outputs(struct request *out, const struct given *given, struct e
             error_set(err, "%s: cannot write .%s files, only %s", path, extension, names);
             return false;
         }
-        out->outputs[out->output_count++] = (struct output){path, format};
+        bool per_view = out->style.views.count && strstr(path, VIEW_MARK);
+        if (out->style.views.count && !per_view && is_map(format->kind)) {
+            error_set(err, "%s: %s of several views need a file each: give -o NAME-%s.EXT", path,
+                      format->name, VIEW_MARK);
+            return false;
+        }
+        out->outputs[out->output_count++] = (struct output){path, per_view, format};
     }
     return true;
 }
@@ -149,5 +158,22 @@ bool request_make(struct request *out, const struct given *given, struct error *
     out->view = view_parse(given->view);
     out->scheme = scheme_choose(given->scheme, &out->own_scheme, err);
     return out->scheme && set_size(out, given, err) && set_camera(out, given, err) &&
-           set_outputs(out, given, err);
+           style_parse(&out->style, given, err) && set_outputs(out, given, err);
+}
+
+bool request_draws(const struct request *r, const struct view *view)
+{
+    bool draws = !view && (r->summary || r->style.reference);
+    for (uint32_t i = 0; i < r->output_count; i++)
+        draws |= r->outputs[i].per_view == (view != NULL) &&
+                 r->outputs[i].format->kind == OUTPUT_PICTURE;
+    return draws;
+}
+
+bool request_maps(const struct request *r, const struct view *view)
+{
+    bool maps = false;
+    for (uint32_t i = 0; i < r->output_count; i++)
+        maps |= r->outputs[i].per_view == (view != NULL) && is_map(r->outputs[i].format->kind);
+    return maps;
 }

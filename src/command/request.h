@@ -2,12 +2,19 @@
 #pragma once
 #include "command/format.h"
 #include "command/options.h"
+#include "command/style.h"
 #include "command/view.h"
 #include "render/camera.h"
 #include "render/scheme_file.h"
 
+enum { PIXELS_MOST = 1 << 26 };
+
+// In the path of an output: the name of the view, of which each gets a file of its own.
+#define VIEW_MARK "%s"
+
 struct output {
     const char *path; // "-": standard output
+    bool per_view;
     const struct output_format *format;
 };
 
@@ -23,6 +30,7 @@ struct request {       // borrows from the command line
     struct camera camera;
     bool viewall, autocenter;
     struct view_options view;
+    struct style style;
     const struct scheme *scheme; // of OpenSCAD's, or own_scheme
     struct scheme own_scheme;    // of a file
     enum model_mode mode;
@@ -35,3 +43,7 @@ struct request {       // borrows from the command line
 };
 
 bool request_make(struct request *out, const struct given *given, struct error *err);
+// Whether a picture has to be drawn, or numbers per pixel: of a view alone for the outputs that
+// have a file per view, or with NULL for all others, numbers about the picture and its check.
+bool request_draws(const struct request *r, const struct view *view);
+bool request_maps(const struct request *r, const struct view *view);
