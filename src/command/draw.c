@@ -134,6 +134,8 @@ bool drawn_make(struct drawn *out, const struct request *r, const struct model *
     if (draws || maps) {
         d.box = box_to_show(&d);
         shader_init(&d.shader, m, r->scheme);
+        if (draws && !r->sorted)
+            d.shader.layers = d.layers = layers_new(&d.shader);
     }
     if (draws)
         ok = !view && r->style.views.count ? draw_sheet(&d, err) : draw_picture(&d, view, err);
@@ -149,6 +151,7 @@ void drawn_free(struct drawn *d)
 {
     if (d->device)
         cpu_device_delete(d->device);
+    layers_delete(d->layers);
     shader_free(&d->shader);
     shot_free(&d->shot);
     map_free(&d->map);

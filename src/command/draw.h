@@ -9,6 +9,7 @@ struct drawn { // {0} is valid
     const struct model *model;
     struct cpu_device *device;
     struct shader shader;
+    struct layers *layers;
     struct render_settings settings;
     struct box box;       // to be shown
     struct camera camera; // the latest

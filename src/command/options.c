@@ -11,6 +11,7 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
     *out = (struct given){.operands = argv + 1,
                           .size = {512, 512},
                           .scheme = "Cornfield",
+                          .transparency = "file",
                           .epsilon = -1,
                           .megabytes = 256,
                           .samples = 1};
@@ -80,6 +81,10 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
          "differences up to N of 255 do not count, nor do they in P percent of\n"
          "the pixels (default 0,0%)",
          &out->threshold, 0, 0},
+        {"transparency", 0, OPTION_TEXT, "file|sorted",
+         "draw see-through objects in the order of the file, as OpenSCAD does\n"
+         "(default), or the far ones first, whatever their order",
+         &out->transparency, 0, 0},
         {"device", 0, OPTION_TEXT, "auto|cpu", "what draws", &out->device, 0, 0},
         {"threads", 0, OPTION_COUNT, "N", "threads to draw with; 0: one per processor (default)",
          &out->threads, 0, 256},

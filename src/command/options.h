@@ -6,7 +6,7 @@ struct given {
     char **operands;
     int operand_count;
     struct option_list outputs;
-    const char *export_format, *camera, *projection, *view, *scheme, *device;
+    const char *export_format, *camera, *projection, *view, *scheme, *transparency, *device;
     int size[2];
     bool viewall, autocenter, summary, hard_warnings, quiet;
     struct option_list render, preview;

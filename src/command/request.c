@@ -143,6 +143,15 @@ static bool check_device(const struct given *given, struct error *err)
     return false;
 }
 
+static bool set_transparency(struct request *out, const struct given *given, struct error *err)
+{
+    out->sorted = strcmp(given->transparency, "sorted") == 0;
+    if (out->sorted || strcmp(given->transparency, "file") == 0)
+        return true;
+    error_set(err, "--transparency: expected file or sorted, got '%s'", given->transparency);
+    return false;
+}
+
 bool request_make(struct request *out, const struct given *given, struct error *err)
 {
     *out = (struct request){.epsilon = given->epsilon,
@@ -157,8 +166,9 @@ bool request_make(struct request *out, const struct given *given, struct error *
         return false;
     out->view = view_parse(given->view);
     out->scheme = scheme_choose(given->scheme, &out->own_scheme, err);
-    return out->scheme && set_size(out, given, err) && set_camera(out, given, err) &&
-           style_parse(&out->style, given, err) && set_outputs(out, given, err);
+    return out->scheme && set_transparency(out, given, err) && set_size(out, given, err) &&
+           set_camera(out, given, err) && style_parse(&out->style, given, err) &&
+           set_outputs(out, given, err);
 }
 
 bool request_draws(const struct request *r, const struct view *view)

@@ -271,26 +271,46 @@ static bool ends_intersection(const struct expr *e, uint32_t i)
     return e->kids[e->nodes[p].first + e->nodes[p].count - 1] == i;
 }
 
-void expr_without(struct expr *out, const struct expr *e, const bool *keep)
+uint32_t expr_first(const struct expr *e, uint32_t node)
+{
+    while (e->nodes[node].op != EXPR_LEAF)
+        node = e->kids[e->nodes[node].first];
+    return node;
+}
+
+size_t expr_postfix(struct expr_token *out, const struct expr *e, uint32_t node,
+                    const uint32_t *number_of)
 {
     // One token per node, and one more per intersection: after its last child, in front of what it
     // subtracts.
-    struct expr_token *tokens = mem_alloc((size_t)e->node_count * 2 * sizeof *tokens);
     size_t count = 0;
-    for (uint32_t i = 0; i < e->node_count; i++) {
+    for (uint32_t i = expr_first(e, node); i <= node; i++) {
         const struct expr_node *n = &e->nodes[i];
-        if (n->op == EXPR_LEAF)
-            tokens[count++] = keep[n->leaf] ? (struct expr_token){EXPR_LEAF, n->leaf}
-                                            : (struct expr_token){EXPR_UNION, 0};
-        else if (n->op == EXPR_UNION)
-            tokens[count++] = (struct expr_token){EXPR_UNION, n->count};
-        else if (n->minus != EXPR_NONE)
-            tokens[count++] = (struct expr_token){EXPR_DIFFERENCE, 2};
-        if (ends_intersection(e, i))
-            tokens[count++] = (struct expr_token){EXPR_INTERSECTION, e->nodes[n->parent].count};
+        if (n->op == EXPR_LEAF) {
+            uint32_t leaf = number_of ? number_of[n->leaf] : n->leaf;
+            out[count++] = leaf != EXPR_NONE ? (struct expr_token){EXPR_LEAF, leaf}
+                                             : (struct expr_token){EXPR_UNION, 0};
+        } else if (n->op == EXPR_UNION) {
+            out[count++] = (struct expr_token){EXPR_UNION, n->count};
+        } else if (n->minus != EXPR_NONE) {
+            out[count++] = (struct expr_token){EXPR_DIFFERENCE, 2};
+        }
+        if (i < node && ends_intersection(e, i))
+            out[count++] = (struct expr_token){EXPR_INTERSECTION, e->nodes[n->parent].count};
     }
+    return count;
+}
+
+void expr_without(struct expr *out, const struct expr *e, const bool *keep)
+{
+    struct expr_token *tokens = mem_alloc((size_t)e->node_count * 2 * sizeof *tokens);
+    uint32_t *number = mem_alloc(e->leaf_count * sizeof *number);
+    for (uint32_t i = 0; i < e->leaf_count; i++)
+        number[i] = keep[i] ? i : EXPR_NONE;
+    size_t count = e->node_count ? expr_postfix(tokens, e, e->node_count - 1, number) : 0;
     expr_build(out, tokens, count, e->leaf_count);
     free(tokens);
+    free(number);
 }
 
 void expr_free(struct expr *e)

@@ -51,5 +51,12 @@ void expr_build(struct expr *out, const struct expr_token *postfix, size_t count
 void expr_without(struct expr *out, const struct expr *e, const bool *keep);
 void expr_free(struct expr *e); // leaves {0}
 
+// The first node of the subtree of a node; the node itself is its last.
+uint32_t expr_first(const struct expr *e, uint32_t node);
+// The subtree of a node in postfix order, each leaf put through `number_of` (NULL: as it is,
+// EXPR_NONE: the empty set). `out` has room for two tokens a node. Returns their number.
+size_t expr_postfix(struct expr_token *out, const struct expr *e, uint32_t node,
+                    const uint32_t *number_of);
+
 // Plain evaluation for tests and small uses: inside[leaf] tells which leaves hold the point.
 bool expr_evaluate(const struct expr *e, const bool *inside);

@@ -175,6 +175,14 @@ static struct box box_to_show(const struct leaf *leaf)
     return box_transformed(box, &leaf->to_world);
 }
 
+static bool is_see_through(const struct body *body)
+{
+    bool any = body->kind != BODY_MAIN;
+    for (uint32_t i = 0; i < body->leaf_count && !any; i++)
+        any = body->leaves[i].colour[3] >= 0 && body->leaves[i].colour[3] < 1;
+    return any;
+}
+
 // Regions of interest, and the expression without the leaves that have none.
 static void restrict_leaves(struct body *body, const bool *intersected, bool wanted,
                             struct box *bounds)
@@ -193,9 +201,10 @@ static void restrict_leaves(struct body *body, const bool *intersected, bool wan
             *bounds = box_union(*bounds, box_to_show(&body->leaves[i]));
     }
     if (wanted && drop) {
-        struct expr all = body->expr;
-        expr_without(&body->expr, &all, keep);
-        expr_free(&all);
+        body->whole = body->expr;
+        expr_without(&body->expr, &body->whole, keep);
+        if (!is_see_through(body))
+            expr_free(&body->whole);
     }
     for (uint32_t i = 0; i < count && !wanted; i++)
         body->roi[i] = body->leaves[i].box;
@@ -225,6 +234,7 @@ void body_free(struct body *body)
     discovery_delete(body->table);
     sharing_free(&body->sharing);
     expr_free(&body->expr);
+    expr_free(&body->whole);
     for (uint32_t i = 0; i < body->leaf_count; i++)
         store_release(body->leaves[i].solid);
     free(body->leaves);

@@ -39,6 +39,9 @@ struct body {
     struct leaf *leaves;
     uint32_t leaf_count;
     struct expr expr; // without the leaves that cannot matter
+    // With them, of bodies that can be seen through: OpenSCAD's products depend on them. Without
+    // nodes where it is the same.
+    struct expr whole;
     struct sharing sharing;
     struct box *roi; // per leaf
     struct discovery *table;

@@ -113,11 +113,6 @@ uint32_t scene_fold(struct scene *s, enum term_op op, uint32_t left, uint32_t ri
     if (left == TERM_NONE)
         return right;
     uint32_t left_marks = scene_marks(s, left), right_marks = scene_marks(s, right);
-    if ((left_marks & CSG_BACKGROUND) && (right_marks & CSG_BACKGROUND)) {
-        uint32_t t = combine(s, op, left, right);
-        scene_mark(s, t, (uint8_t)(CSG_BACKGROUND | (left_marks & right_marks & CSG_HIGHLIGHT)));
-        return t;
-    }
     if (right_marks & CSG_BACKGROUND) {
         scene_show_apart(s, right);
         return left;

@@ -2,34 +2,19 @@
 // other.
 //
 // OpenSCAD's order: the model, then the background objects, then the highlights; each tests depth
-// against what is there and writes its own, transparent or not. Of a transparent object that is cut
-// or intersected only the nearest surface shows, of one that stands alone also its far side.
+// against what is there and writes its own, transparent or not.
 #include "render/picture.h"
 
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "render/blend.h"
 #include "render/outlines.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS = 16 };           // given to a worker at a time
-enum { LAYERS = 1024 };       // of transparent surfaces that a ray shows at most
-#define ROUNDING 1e-6         // of depths, which are floats, relative to the distance of the scene
-#define FAINTEST (1.0f / 512) // what shows through less than this is not seen in 8 bits
-
-// One body being drawn, as the workers see it.
-struct drawing {
-    struct picture *picture;
-    const struct shader *shader;
-    const struct body_shading *shading;
-    uint32_t body;
-    struct light light;
-    struct surface_image *surface; // of an opaque body
-    bool record;                   // into picture->surface
-    bool first;                    // nothing was drawn before it
-    float tolerance;               // depths within it are equal
-};
+enum { ROWS = 16 };   // given to a worker at a time
+#define ROUNDING 1e-6 // of depths, which are floats, relative to the distance of the scene
 
 static void reserve(struct picture *p, int width, int height)
 {
@@ -61,6 +46,7 @@ void picture_free(struct picture *p)
         free(images[i]->face);
     }
     free(p->rgb);
+    free(p->owners);
     *p = (struct picture){0};
 }
 
@@ -133,19 +119,14 @@ static void shade_runs(const struct drawing *d, struct shade_cache *cache, int y
     }
 }
 
-// A row of a later body: what is nearer than all before it.
+// A row of a later body or layer.
 static void shade_nearer(const struct drawing *d, struct shade_cache *cache, int y, int x0, int x1)
 {
-    const struct surface_image *s = d->surface;
-    struct picture *p = d->picture;
-    size_t row = (size_t)y * (size_t)s->width;
-    for (size_t i = row + (size_t)x0; i < row + (size_t)x1; i++) {
-        if (s->leaf[i] == SURFACE_NONE || s->depth[i] > p->depth[i] + d->tolerance)
-            continue;
-        struct rgba c = shade_cached(cache, d->shader, d->body, &d->light, s->leaf[i], s->face[i]);
-        memcpy(p->rgb + 3 * i, &c, 3);
-        p->depth[i] = s->depth[i];
-    }
+    size_t row = (size_t)y * (size_t)d->surface->width;
+    for (size_t i = row + (size_t)x0; i < row + (size_t)x1; i++)
+        blend_surface(d, cache, i);
+    if (d->layer && d->layer->repeats)
+        blend_repeated(d, cache, row + (size_t)x0, row + (size_t)x1);
 }
 
 // Shades what was just drawn while it is in the processor's cache.
@@ -153,12 +134,13 @@ static void shade_rect(void *context, struct pixel_rect rect, bool nothing)
 {
     const struct drawing *d = context;
     struct shade_cache cache;
-    if (nothing && !d->first)
+    bool repeats = d->layer && d->layer->repeats;
+    if (nothing && !d->first && !repeats)
         return;
-    if (!nothing)
+    if (!nothing || repeats)
         shade_cache_clear(&cache);
     for (int y = rect.y0; y < rect.y1; y++) {
-        if (nothing)
+        if (nothing && d->first)
             clear_row(d, y, rect.x0, rect.x1);
         else if (d->first)
             shade_runs(d, &cache, y, rect.x0, rect.x1);
@@ -167,110 +149,38 @@ static void shade_rect(void *context, struct pixel_rect rect, bool nothing)
     }
 }
 
-// Colours met along a ray, from the front.
-struct layers {
-    struct rgba colours[LAYERS];
-    uint32_t count;
-    float through; // share that what follows still has
-};
-
-// Which parts of the body have shown their nearest surface on this ray. Past the capacity a part
-// may show again: with that many layers in front it is all but invisible.
-struct parts_seen {
-    uint32_t numbers[16];
-    uint32_t count;
-};
-
-static bool part_is_new(struct parts_seen *seen, uint32_t part)
+static void draw_layers(struct cpu_device *device, struct drawing *d,
+                        const struct body_layers *layers, const struct rays *rays,
+                        const struct render_settings *settings, struct render_stats *stats)
 {
-    for (uint32_t i = 0; i < seen->count; i++)
-        if (seen->numbers[i] == part)
-            return false;
-    if (seen->count < array_count(seen->numbers))
-        seen->numbers[seen->count++] = part;
-    return true;
-}
-
-struct ray_state {
-    const struct drawing *drawing;
-    struct shade_cache *cache;
-    struct layers layers;
-    struct parts_seen seen;
-    float limit;      // surfaces behind it are hidden
-    bool shown;       // something was
-    struct span near; // enter_* of the nearest surface shown
-};
-
-// False when nothing behind this surface can show.
-static bool meet_surface(struct ray_state *r, float depth, uint32_t leaf, uint32_t face,
-                         bool far_side)
-{
-    const struct drawing *d = r->drawing;
-    const struct material *m = &d->shading->materials[leaf];
-    if (depth > r->limit)
-        return false;
-    bool shows = m->alone || (!far_side && (part_is_new(&r->seen, m->part) || m->alpha == 255));
-    if (!shows)
-        return true;
-    if (!r->shown)
-        r->near = (struct span){.enter = depth, .enter_leaf = leaf, .enter_face = face};
-    r->shown = true;
-    struct layers *l = &r->layers;
-    l->colours[l->count++] = shade_cached(r->cache, d->shader, d->body, &d->light, leaf, face);
-    l->through *= 1 - (float)m->alpha / 255;
-    return l->through > FAINTEST && l->count < LAYERS;
-}
-
-// As a frame buffer of 8 bits mixes: both shares are rounded.
-static uint8_t over(uint8_t front, uint8_t alpha, uint8_t behind)
-{
-    uint32_t v = (front * alpha + 127u) / 255 + (behind * (255u - alpha) + 127u) / 255;
-    return (uint8_t)(v < 255 ? v : 255);
-}
-
-static void finish_ray(const struct ray_state *r, size_t pixel)
-{
-    struct picture *p = r->drawing->picture;
-    if (!r->shown)
-        return;
-    uint8_t *rgb = p->rgb + 3 * pixel;
-    for (uint32_t i = r->layers.count; i-- > 0;) {
-        struct rgba c = r->layers.colours[i];
-        rgb[0] = over(c.r, c.a, rgb[0]);
-        rgb[1] = over(c.g, c.a, rgb[1]);
-        rgb[2] = over(c.b, c.a, rgb[2]);
-    }
-    p->depth[pixel] = r->near.enter;
-    if (r->drawing->record) {
-        p->surface.leaf[pixel] = r->near.enter_leaf;
-        p->surface.face[pixel] = r->near.enter_face;
+    d->surface = &d->picture->scratch;
+    for (uint32_t i = 0; i < layers->count; i++) {
+        const struct layer *layer = &layers->items[i];
+        struct render_stats one = {0};
+        d->layer = layer;
+        if (layer->both_sides)
+            cpu_spans(device, &layer->body, rays, settings, blend_both_sides, d, &one);
+        else
+            cpu_first_surface(device, &layer->body, rays, settings, d->surface, shade_rect, d,
+                              &one);
+        render_stats_add(stats, &one);
     }
 }
 
-static void blend_block(void *context, uint32_t worker, const struct span_block *block)
+// Notes whose faces the first body shows, if a layer asks. A whole opaque body has noted nothing.
+static void begin_owners(const struct drawing *d)
 {
-    (void)worker;
-    const struct drawing *d = context;
-    struct shade_cache cache;
-    shade_cache_clear(&cache);
-    struct ray_state r = {.drawing = d, .cache = &cache};
-    uint32_t i = 0;
-    for (int y = block->y0; y < block->y1; y++) {
-        for (int x = block->x0; x < block->x1; x++, i++) {
-            size_t pixel = (size_t)y * (size_t)d->picture->width + (size_t)x;
-            r.limit = d->picture->depth[pixel] + d->tolerance;
-            r.layers.count = r.seen.count = 0;
-            r.layers.through = 1;
-            r.shown = false;
-            bool more = true;
-            for (uint32_t k = block->first[i]; more && k < block->first[i + 1]; k++) {
-                const struct span *s = &block->spans[k];
-                more = meet_surface(&r, s->enter, s->enter_leaf, s->enter_face, false) &&
-                       s->leave_leaf != SURFACE_NONE &&
-                       meet_surface(&r, s->leave, s->leave_leaf, s->leave_face, true);
-            }
-            finish_ray(&r, pixel);
-        }
+    struct picture *p = d->picture;
+    size_t n = (size_t)p->width * (size_t)p->height;
+    const struct body *body = &d->shader->model->bodies[d->body];
+    if (!p->owners)
+        p->owners = mem_alloc(n * sizeof *p->owners);
+    for (size_t i = 0; i < n; i++) {
+        uint32_t leaf = p->surface.leaf[i];
+        p->owners[i] = (struct owner){TWIN_NONE, 0, false};
+        if (d->first && leaf != SURFACE_NONE)
+            p->owners[i] =
+                (struct owner){d->twin_of[leaf], p->surface.face[i], body->leaves[leaf].subtracted};
     }
 }
 
@@ -278,6 +188,7 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
                   const struct rays *rays, const struct render_settings *settings,
                   struct render_stats *stats)
 {
+    const struct layers *layers = shader->layers;
     *stats = (struct render_stats){0};
     reserve(p, rays->width, rays->height);
     const struct model *model = shader->model;
@@ -303,11 +214,18 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
                             .tolerance =
                                 (float)fmax(settings->epsilon, ROUNDING * fabs(rays->reference))};
         struct render_stats one = {0};
-        if (d.shading->opaque) {
+        bool owned = layers && layers->repeat;
+        d.twin_of = owned ? layers->bodies[b].twin_of : NULL;
+        if (owned && b == 0 && !d.first)
+            begin_owners(&d);
+        if (d.shading->opaque)
             cpu_first_surface(device, body, rays, settings, d.surface, shade_rect, &d, &one);
-        } else {
-            cpu_spans(device, body, rays, settings, blend_block, &d, &one);
-        }
+        else if (layers)
+            draw_layers(device, &d, &layers->bodies[b], rays, settings, stats);
+        else
+            cpu_spans(device, body, rays, settings, blend_sorted, &d, &one);
+        if (owned && d.first)
+            begin_owners(&d);
         render_stats_add(stats, &one);
         if (p->overlay && d.first) // the body is opaque and hides afterwards what is behind it
             overlay_draw_among(p->overlay, rays, &canvas);

@@ -2,8 +2,15 @@
 // other.
 #pragma once
 #include "render/device.h"
+#include "render/layers.h"
 #include "render/overlay.h"
-#include "render/shade.h"
+
+// Whose face shows in a pixel, for layers that repeat leaves.
+struct owner {
+    uint32_t twin; // see layers.h; TWIN_NONE: nobody asks
+    uint32_t face; // of its solid
+    bool back;     // seen from inside
+};
 
 struct picture { // {0} is valid; buffers are kept from drawing to drawing
     int width, height;
@@ -12,6 +19,7 @@ struct picture { // {0} is valid; buffers are kept from drawing to drawing
     float *depth; // surface.depth: of the nearest surface of all bodies, or INFINITY
     struct surface_image scratch;
     const struct overlay *overlay; // is drawn with the bodies; borrowed, NULL: none
+    struct owner *owners;          // NULL until a layer repeats leaves
 };
 
 // `settings->epsilon` is also the depth within which a highlight counts as lying on the model.

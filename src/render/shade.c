@@ -54,7 +54,8 @@ static struct material material_of(const struct model *m, const struct leaf *lea
     for (int i = 0; i < 4 && !highlighted; i++)
         if (leaf->colour[i] >= 0)
             c[i] = leaf->colour[i];
-    uint8_t alpha = c[3] < 1 ? (uint8_t)(c[3] * 255 + 0.5f) : 255;
+    // halves go to the even number, as graphics cards do it: 0.3 is 76
+    uint8_t alpha = c[3] < 1 ? (uint8_t)lrintf(c[3] * 255) : 255;
     return (struct material){
         .r = c[0], .g = c[1], .b = c[2], .alpha = alpha, .unlit = m->flat != NULL};
 }

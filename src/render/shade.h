@@ -32,6 +32,8 @@ struct shader {
     struct body_shading *bodies; // per body of the model
     struct normals normals;
     struct facing facing; // THROWN_TOGETHER
+    // The order in which see-through surfaces are drawn, borrowed; NULL: the far ones first.
+    const struct layers *layers;
 };
 
 void shader_init(struct shader *out, const struct model *m, const struct scheme *scheme);

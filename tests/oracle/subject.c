@@ -99,23 +99,7 @@ struct oracle_leaf *subject_leaves(const struct body *body)
 struct expr_token *subject_tokens(const struct expr *e, size_t *count)
 {
     struct expr_token *tokens = mem_alloc((2 * (size_t)e->node_count + 1) * sizeof *tokens);
-    *count = 0;
-    for (uint32_t i = 0; i < e->node_count && e->root != EXPR_NONE; i++) {
-        const struct expr_node *n = &e->nodes[i];
-        if (n->op == EXPR_LEAF)
-            tokens[(*count)++] = (struct expr_token){EXPR_LEAF, n->leaf};
-        else if (n->minus == EXPR_NONE || n->op == EXPR_UNION)
-            tokens[(*count)++] = (struct expr_token){n->op, n->count};
-        else
-            tokens[(*count)++] = (struct expr_token){EXPR_DIFFERENCE, 2};
-        if (n->parent == EXPR_NONE)
-            continue;
-        // Operands stand before what is subtracted from them.
-        const struct expr_node *up = &e->nodes[n->parent];
-        if (up->op == EXPR_INTERSECTION && up->minus != EXPR_NONE &&
-            e->kids[up->first + up->count - 1] == i)
-            tokens[(*count)++] = (struct expr_token){EXPR_INTERSECTION, up->count};
-    }
+    *count = e->node_count ? expr_postfix(tokens, e, e->node_count - 1, NULL) : 0;
     return tokens;
 }
 

@@ -87,12 +87,13 @@ static void make_planes(struct tile *t, const struct planes *p, const struct loc
 INLINE void put_steepness(struct tile *t, uint32_t at, v8f a, v8f b, v8f c)
 {
     v8f one = v8_set(1), zero = v8_set(0), per_pixel = zero;
-    v8f scale = v8_set(t->slope);
+    v8f scale_x = v8_set(t->slope_x), scale_y = v8_set(t->slope_y);
     if (!t->frame->rays->orthographic) {
         per_pixel = one / (v8_set((float)t->frame->t0) - a);
-        scale = scale * per_pixel;
+        scale_x = scale_x * per_pixel;
+        scale_y = scale_y * per_pixel;
     }
-    v8f gx = b * scale, gy = c * scale;
+    v8f gx = b * scale_x, gy = c * scale_y;
     v8f along = one + gx * t->lean_x + gy * t->lean_y;
     v8f squared = gx * gx + gy * gy + along * along;
     v8f steep = one / v8_sqrt(squared);

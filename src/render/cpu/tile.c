@@ -109,7 +109,8 @@ void tile_enter(struct tile *t, uint32_t tile_number)
     t->direction = d;
     t->middle = vec3_add(t->origin, vec3_scale(d, f->t0));
     double pixel_x = vec3_length(f->rays->step_x), pixel_y = vec3_length(f->rays->step_y);
-    t->slope = (float)(1 / pixel_x); // pixels are square: see rays.h
+    t->slope_x = (float)(1 / pixel_x);
+    t->slope_y = (float)(1 / pixel_y);
     t->lean_x = (float)(vec3_dot(d, f->rays->step_x) / pixel_x);
     t->lean_y = (float)(vec3_dot(d, f->rays->step_y) / pixel_y);
 

@@ -125,10 +125,10 @@ struct tile {
     const struct frame *frame; // of the picture being drawn
     uint32_t worker;
     struct tile_room room;
-    int x0, y0, x1, y1;                    // pixels [x0, x1) x [y0, y1)
-    double cx, cy;                         // the centre, in pixel coordinates
-    struct vec3 origin, direction, middle; // the ray there; middle is at t0
-    float slope, lean_x, lean_y;           // of the ray there, see steepness in tile.c
+    int x0, y0, x1, y1;                     // pixels [x0, x1) x [y0, y1)
+    double cx, cy;                          // the centre, in pixel coordinates
+    struct vec3 origin, direction, middle;  // the ray there; middle is at t0
+    float slope_x, slope_y, lean_x, lean_y; // of the ray there, see put_steepness in planes.c
 
     struct tile_leaf *leaves;
     uint32_t leaf_count, leaf_capacity;
