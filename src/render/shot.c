@@ -9,7 +9,6 @@
 #include "base/parallel.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 // Hammersley's points around the middle of the pixel: even in both directions for every number.
 static void offset_of(uint32_t sample, uint32_t samples, double *x, double *y)
@@ -34,17 +33,15 @@ static struct rays shifted(const struct rays *rays, double x, double y)
     return r;
 }
 
-static void reserve(struct shot *s, int width, int height, uint32_t channels)
+// Buffers for what is not a single drawing, empty ones.
+static void reserve(struct shot *s, size_t pixels)
 {
-    if (s->pixels && s->width == width && s->height == height && s->channels == channels)
-        return;
-    size_t n = (size_t)width * (size_t)height;
-    s->pixels = mem_realloc(s->pixels, n * channels);
-    s->sums = mem_realloc(s->sums, n * 3 * sizeof *s->sums);
-    s->bright = mem_realloc(s->bright, n * sizeof *s->bright);
-    s->width = width;
-    s->height = height;
-    s->channels = channels;
+    free(s->finished);
+    free(s->sums);
+    free(s->bright);
+    s->finished = mem_alloc(pixels * s->channels);
+    s->sums = mem_zalloc(pixels * 3 * sizeof *s->sums);
+    s->bright = mem_zalloc(pixels * sizeof *s->bright);
 }
 
 // What is done to each row.
@@ -93,7 +90,7 @@ static void finish_row(void *context, uint32_t y, uint32_t worker)
     size_t width = (size_t)s->width, row = y * width;
     for (size_t i = row; i < row + width; i++) {
         const uint16_t *sum = s->sums + 3 * i;
-        uint8_t *out = s->pixels + s->channels * i;
+        uint8_t *out = s->finished + s->channels * i;
         uint32_t cover = full; // alpha times the number of samples
         if (s->channels == 4) {
             int behind = s->bright[i] - sum[1];
@@ -127,21 +124,17 @@ static struct scheme plain(const struct scheme *from, uint8_t grey)
     return scheme;
 }
 
-void shot_draw(struct shot *s, struct cpu_device *device, const struct shader *shader,
-               const struct rays *rays, const struct render_settings *settings,
-               const struct shot_style *style, struct render_stats *stats)
+// All drawings of a picture that is averaged or transparent.
+static void draw_samples(struct shot *s, struct cpu_device *device, const struct shader *shader,
+                         const struct rays *rays, const struct render_settings *settings,
+                         const struct shot_style *style, struct render_stats *stats)
 {
-    *stats = (struct render_stats){0};
-    reserve(s, rays->width, rays->height, style->transparent ? 4 : 3);
-    size_t n = (size_t)s->width * (size_t)s->height;
     uint32_t rows = (uint32_t)s->height;
     struct row_job job = {s, style};
     struct scheme black = plain(shader->scheme, 0), white = plain(shader->scheme, 255);
     struct shader before_black = *shader, before_white = *shader;
     before_black.scheme = &black;
     before_white.scheme = &white;
-    memset(s->sums, 0, n * 3 * sizeof *s->sums);
-    memset(s->bright, 0, n * sizeof *s->bright);
     for (uint32_t i = 0; i < style->samples; i++) {
         double x, y;
         offset_of(i, style->samples, &x, &y);
@@ -157,13 +150,33 @@ void shot_draw(struct shot *s, struct cpu_device *device, const struct shader *s
         parallel_for(rows, settings->threads, add_bright_row, &job);
     }
     parallel_for(rows, settings->threads, finish_row, &job);
+    s->pixels = s->finished;
+}
+
+void shot_draw(struct shot *s, struct cpu_device *device, const struct shader *shader,
+               const struct rays *rays, const struct render_settings *settings,
+               const struct shot_style *style, struct render_stats *stats)
+{
+    *stats = (struct render_stats){0};
+    s->width = rays->width;
+    s->height = rays->height;
+    s->channels = style->transparent ? 4 : 3;
+    if (style->samples > 1 || style->transparent) {
+        reserve(s, (size_t)s->width * (size_t)s->height);
+        draw_samples(s, device, shader, rays, settings, style, stats);
+        return;
+    }
+    if (style->effects)
+        effects_draw(&s->effects, device, shader, rays, settings, style->effects, 0, 1);
+    draw(s, device, shader, rays, settings, style, stats);
+    s->pixels = s->picture.rgb;
 }
 
 void shot_free(struct shot *s)
 {
     picture_free(&s->picture);
     effects_free(&s->effects);
-    free(s->pixels);
+    free(s->finished);
     free(s->sums);
     free(s->bright);
     *s = (struct shot){0};

@@ -13,10 +13,12 @@ struct shot_style {
 
 struct shot { // {0} is valid; buffers are kept from shot to shot
     int width, height;
-    uint32_t channels; // 3 or 4: with alpha, colours not multiplied by it
-    uint8_t *pixels;   // rows from the top without padding
+    uint32_t channels;     // 3 or 4: with alpha, colours not multiplied by it
+    const uint8_t *pixels; // rows from the top without padding: of `picture` or `finished`
     struct picture picture;
     struct effects effects;
+    // Of what is averaged or transparent:
+    uint8_t *finished;
     uint16_t *sums;   // over the samples, three per pixel
     uint16_t *bright; // of green before white, one per pixel
 };
