@@ -11,6 +11,7 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -78,8 +79,10 @@ bool child_run(struct child *out, const char *const *argv, double limit, bool lo
     if (c.late)
         kill(-pid, SIGTERM);
     int status = 0;
-    while (waitpid(pid, &status, 0) < 0 && errno == EINTR)
+    struct rusage usage = {0};
+    while (wait4(pid, &status, 0, &usage) < 0 && errno == EINTR)
         ;
+    c.peak_bytes = (size_t)usage.ru_maxrss * 1024;
     c.seconds = clock_seconds() - begin;
     c.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     if (!c.output)

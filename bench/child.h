@@ -5,10 +5,11 @@
 #include <stddef.h>
 
 struct child {
-    double seconds; // from start to end
-    int status;     // exit status; -1: it was ended by a signal
-    bool late;      // ended because it ran past the limit
-    char *output;   // what it wrote to standard output, terminated; of a late one what came so far
+    double seconds;    // from start to end
+    size_t peak_bytes; // most memory it had
+    int status;        // exit status; -1: it was ended by a signal
+    bool late;         // ended because it ran past the limit
+    char *output; // what it wrote to standard output, terminated; of a late one what came so far
     size_t size;
 };
 

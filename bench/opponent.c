@@ -108,18 +108,42 @@ bool opponent_measure(struct result *out, const char *csg, const struct opponent
     return ok;
 }
 
-static bool run_process(struct samples *to, const struct command *c, struct error *err)
+static bool run_process(struct process_side *to, const struct command *c, bool *late,
+                        struct error *err)
 {
     struct child child;
     if (!child_run(&child, c->words, PROCESS_LIMIT, false, err))
         return false;
-    bool ok = !child.late && child.status == 0;
-    if (ok)
-        samples_add(to, child.seconds * 1e3);
-    else
-        error_set(err, "%s: failed", c->words[0]);
+    *late = child.late;
+    bool ok = child.late || child.status == 0;
+    if (ok) {
+        samples_add(&to->times, child.seconds * 1e3);
+        to->peak_bytes = child.peak_bytes > to->peak_bytes ? child.peak_bytes : to->peak_bytes;
+    } else {
+        error_set(err, "%s: failed on %s", c->words[0], c->words[1]);
+    }
     child_free(&child);
     return ok;
+}
+
+// `display` is DISPLAY's value for openscad.
+static bool run_both(struct process_result *out, const struct command *we,
+                     const struct command *they, const char *display, struct error *err)
+{
+    bool stuck = false;
+    for (int i = 0; i < PROCESS_RUNS && !out->late; i++) {
+        unsetenv("DISPLAY");
+        bool ok = run_process(&out->ours, we, &stuck, err);
+        setenv("DISPLAY", display, 1);
+        if (!ok || !run_process(&out->theirs, they, &out->late, err))
+            return false;
+        if (stuck) {
+            error_set(err, "%s: takes more than %d s on %s", we->words[0], PROCESS_LIMIT,
+                      out->file);
+            return false;
+        }
+    }
+    return true;
 }
 
 bool process_measure(struct process_result *out, const char *csg, const char *render,
@@ -129,17 +153,26 @@ bool process_measure(struct process_result *out, const char *csg, const char *re
     snprintf(ours, sizeof ours, "/tmp/hcsg-bench-%ld-ours.png", (long)getpid());
     snprintf(theirs, sizeof theirs, "/tmp/hcsg-bench-%ld-theirs.png", (long)getpid());
     struct command we = {0}, they = {0};
-    const char *const our_words[] = {render, csg, "-o", ours, "--imgsize=512,512"};
-    const char *const their_words[] = {"openscad",          csg,         "-o",          theirs,
-                                       "--imgsize=512,512", "--viewall", "--autocenter"};
-    for (size_t i = 0; i < array_count(our_words); i++)
+    const char *const our_words[] = {render, csg, "-o", ours};
+    const char *const their_words[] = {"openscad", csg, "-o", theirs};
+    const char *const view[] = {"--imgsize=512,512", "--viewall", "--autocenter"};
+    for (size_t i = 0; i < array_count(our_words); i++) {
         command_add(&we, our_words[i]);
-    for (size_t i = 0; i < array_count(their_words); i++)
         command_add(&they, their_words[i]);
+    }
+    for (size_t i = 0; i < array_count(view); i++) {
+        command_add(&we, view[i]);
+        command_add(&they, view[i]);
+    }
     *out = (struct process_result){.file = csg};
-    bool ok = true;
-    for (int i = 0; ok && i < PROCESS_RUNS; i++)
-        ok = run_process(&out->ours, &we, err) && run_process(&out->theirs, &they, err);
+    const char *display = getenv("DISPLAY");
+    if (!display) {
+        error_set(err, "openscad needs a display; see xvfb-run");
+        return false;
+    }
+    char *kept = mem_strdup(display);
+    bool ok = run_both(out, &we, &they, kept, err);
+    free(kept);
     unlink(ours);
     unlink(theirs);
     if (!ok)
@@ -149,7 +182,7 @@ bool process_measure(struct process_result *out, const char *csg, const char *re
 
 void process_free(struct process_result *p)
 {
-    samples_free(&p->ours);
-    samples_free(&p->theirs);
+    samples_free(&p->ours.times);
+    samples_free(&p->theirs.times);
     *p = (struct process_result){0};
 }

@@ -13,11 +13,18 @@ struct opponent_options {
 bool opponent_measure(struct result *out, const char *csg, const struct opponent_options *options,
                       struct error *err);
 
-struct process_result {
-    const char *file;            // borrowed
-    struct samples ours, theirs; // ms
+// One program's runs on a file.
+struct process_side {
+    struct samples times; // ms
+    size_t peak_bytes;    // most memory of any run
 };
-// Draws `csg` several times with hcsg-render (at `render`) and with openscad, 512 x 512.
+struct process_result {
+    const char *file; // borrowed
+    struct process_side ours, theirs;
+    bool late; // openscad was stopped, at the time that stands there
+};
+// Draws `csg` several times with hcsg-render (at `render`), without a display, and with openscad,
+// 512 x 512. What takes openscad a minute is not repeated.
 bool process_measure(struct process_result *out, const char *csg, const char *render,
                      struct error *err);
 void process_free(struct process_result *p); // leaves {0}

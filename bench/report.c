@@ -103,8 +103,8 @@ void report_process_row(FILE *tsv, const struct process_result *p)
 {
     char name[256];
     short_name(p->file, name, sizeof name);
-    row(tsv, name, "process_hcsg_render_ms", &p->ours);
-    row(tsv, name, "process_openscad_ms", &p->theirs);
+    row(tsv, name, "process_hcsg_render_ms", &p->ours.times);
+    row(tsv, name, "process_openscad_ms", &p->theirs.times);
     fflush(tsv);
 }
 
@@ -241,17 +241,49 @@ void report_tables(FILE *out, const struct result *results, uint32_t count)
     walks(out, results, count);
 }
 
-void report_process_table(FILE *out, const struct process_result *results, uint32_t count)
+static double process_ratio(const struct process_result *p)
 {
-    fprintf(out, "\n### Whole processes, ms\n\n"
-                 "| file | hcsg-render, median (min) | openscad, median (min) | ratio |\n"
-                 "|---|--:|--:|--:|\n");
+    return samples_median(&p->theirs.times) / samples_median(&p->ours.times);
+}
+
+static double megabytes(size_t bytes)
+{
+    return (double)bytes / (1 << 20);
+}
+
+static void process_totals(FILE *out, const struct process_result *results, uint32_t count)
+{
+    struct samples ratios = {0}, shares = {0};
     for (uint32_t i = 0; i < count; i++) {
         const struct process_result *p = &results[i];
+        samples_add(&ratios, process_ratio(p));
+        samples_add(&shares, (double)p->ours.peak_bytes / (double)p->theirs.peak_bytes);
+    }
+    fprintf(
+        out,
+        "\nOf %u files: the median ratio is **%.1f**, the smallest %.1f. hcsg-render's memory is "
+        "%.0f %% of openscad's in the median, %.0f %% at most.\n",
+        count, samples_median(&ratios), samples_least(&ratios), 100 * samples_median(&shares),
+        100 * samples_most(&shares));
+    samples_free(&ratios);
+    samples_free(&shares);
+}
+
+void report_process_table(FILE *out, const struct process_result *results, uint32_t count)
+{
+    fprintf(out, "\n### Whole processes\n\n"
+                 "| file | hcsg-render ms, median (min) | openscad ms, median (min) | ratio | "
+                 "hcsg-render MB | openscad MB |\n"
+                 "|---|--:|--:|--:|--:|--:|\n");
+    for (uint32_t i = 0; i < count; i++) {
+        const struct process_result *p = &results[i];
+        const char *more = p->late ? "> " : "";
         char name[256];
         short_name(p->file, name, sizeof name);
-        fprintf(out, "| %s | %.0f (%.0f) | %.0f (%.0f) | %.1f |\n", name, samples_median(&p->ours),
-                samples_least(&p->ours), samples_median(&p->theirs), samples_least(&p->theirs),
-                samples_median(&p->theirs) / samples_median(&p->ours));
+        fprintf(out, "| %s | %.0f (%.0f) | %s%.0f (%.0f) | %s%.1f | %.0f | %.0f |\n", name,
+                samples_median(&p->ours.times), samples_least(&p->ours.times), more,
+                samples_median(&p->theirs.times), samples_least(&p->theirs.times), more,
+                process_ratio(p), megabytes(p->ours.peak_bytes), megabytes(p->theirs.peak_bytes));
     }
+    process_totals(out, results, count);
 }
