@@ -2,10 +2,12 @@
 #include "command/command.h"
 
 #include "base/clock.h"
+#include "command/animation.h"
 #include "command/build.h"
 #include "command/input.h"
 #include "command/output.h"
 #include "command/reference.h"
+#include "command/rule.h"
 #include "command/summary.h"
 
 #include <string.h>
@@ -55,15 +57,19 @@ static int write_views(const struct request *r, const struct model *m)
     return code;
 }
 
-static int print_summary(const struct summary *s)
+// As text beside what goes to standard output.
+static int tell_summary(const struct summary *s)
 {
-    bool taken = false; // standard output, by an output
+    struct error err;
+    bool taken = s->request->rule && strcmp(s->request->rule, "-") == 0;
     for (uint32_t i = 0; i < s->request->output_count; i++)
         taken |= strcmp(s->request->outputs[i].path, "-") == 0;
+    if (s->request->summary_file)
+        return summary_write(s->request->summary_file, s, &err) ? EXIT_FINE
+                                                                : command_fail(&err, EXIT_OUTPUT);
     summary_print(taken ? stderr : stdout, s);
     if (fflush(stdout) == 0 && !ferror(stdout))
         return EXIT_FINE;
-    struct error err;
     error_set(&err, "standard output: cannot write");
     return command_fail(&err, EXIT_OUTPUT);
 }
@@ -85,8 +91,11 @@ static int produce(const struct request *r, const struct model *m, const struct 
             command_fail(&err, code);
     }
     if ((code == EXIT_FINE || code == EXIT_CHECK) && r->summary) {
-        int printed = print_summary(&(struct summary){r, m, messages, &drawn, *times});
-        code = code ? code : printed;
+        struct summary summary = {
+            .request = r, .model = m, .messages = messages, .drawn = &drawn, .times = *times};
+        summary_measure(&summary);
+        int told = tell_summary(&summary);
+        code = code ? code : told;
     }
     drawn_free(&drawn);
     return code;
@@ -110,14 +119,13 @@ static bool stops_at_warnings(const struct request *r, const struct messages *me
     return true;
 }
 
-int command_run(const struct request *r)
+static int run_frame(const struct request *r, struct solid_store *store, struct rule *rule)
 {
     int code = EXIT_INPUT;
     struct messages messages = {0};
     struct input input = {0};
     struct model model = {0};
     struct timing times = {0};
-    struct solid_store *store = solid_store_new();
     double start = clock_seconds();
 
     bool read = input_read(&input, r, &messages);
@@ -128,9 +136,29 @@ int command_run(const struct request *r)
     print_messages(r, &messages);
     if (read && !stops_at_warnings(r, &messages))
         code = produce(r, &model, &messages, &times, &start);
+    if (code == EXIT_FINE && r->rule)
+        rule_note(rule, r, &input, &model);
     model_free(&model);
-    solid_store_delete(store);
     input_free(&input);
     messages_free(&messages);
+    return code;
+}
+
+int command_run(const struct request *r)
+{
+    int code = EXIT_FINE;
+    struct error err;
+    struct rule rule = {0};
+    struct solid_store *store = solid_store_new(); // frames have much in common
+    for (uint32_t i = 0; code == EXIT_FINE && i < (r->frames ? r->frames : 1); i++) {
+        struct request frame;
+        animation_frame(&frame, r, i);
+        code = run_frame(&frame, store, &rule);
+        animation_frame_free(&frame);
+    }
+    if (code == EXIT_FINE && r->rule && !rule_save(&rule, r->rule, &err))
+        code = command_fail(&err, EXIT_OUTPUT);
+    rule_free(&rule);
+    solid_store_delete(store);
     return code;
 }

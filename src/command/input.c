@@ -28,6 +28,10 @@ static void set_arguments(struct scad_options *o, const char **arguments, const 
             arguments[n++] = more[i][0];
             arguments[n++] = more[i][1];
         }
+    if (r->time[0]) {
+        arguments[n++] = "-D";
+        arguments[n++] = r->time;
+    }
     if (r->mode == MODEL_RENDER)
         arguments[n++] = "--render";
     *o = (struct scad_options){r->openscad, arguments, n};
@@ -35,7 +39,7 @@ static void set_arguments(struct scad_options *o, const char **arguments, const 
 
 static bool export_scad(struct scad_result *out, const struct request *r, struct error *err)
 {
-    const char *arguments[2 * OPTION_LIST_MOST + 8];
+    const char *arguments[2 * OPTION_LIST_MOST + 16];
     struct scad_options options;
     set_arguments(&options, arguments, r);
     if (!scad_export(r->input, &options, out, err))

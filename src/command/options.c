@@ -2,9 +2,10 @@
 #include "command/options.h"
 
 #include "base/mem.h"
+#include "command/summary_parts.h"
 #include "render/shot.h"
 
-enum { SIDE_MOST = 32768 };
+enum { SIDE_MOST = 32768, FRAMES_MOST = 99999 };
 
 enum options_result given_parse(struct given *out, int argc, char **argv, struct error *err)
 {
@@ -55,6 +56,12 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
         {NULL, 'P', OPTION_TEXT, "NAME", "the parameter set to use", &out->parameter_set, 0, 0},
         {NULL, 'm', OPTION_TEXT, "COMMAND", "run COMMAND 'file' for each file that is missing",
          &out->make_command, 0, 0},
+        {NULL, 'd', OPTION_TEXT, "FILE", "write a rule for make there: what the outputs depend on",
+         &out->rule, 0, 0},
+        {"animate", 0, OPTION_COUNT, "N",
+         "write N pictures of a .scad with $t from 0 to 1, numbered in front\n"
+         "of the extension: x00000.png ...",
+         &out->frames, 1, FRAMES_MOST},
         {"openscad", 0, OPTION_TEXT, "PROGRAM",
          "exports .scad files; if not given $OPENSCAD, or openscad on the PATH", &out->openscad, 0,
          0},
@@ -101,8 +108,13 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
         {"hardwarnings", 0, OPTION_FLAG, NULL, "make no picture when there is a warning",
          &out->hard_warnings, 0, 0},
         {"quiet", 'q', OPTION_FLAG, NULL, "say nothing but errors", &out->quiet, 0, 0},
-        {"summary", 0, OPTION_FLAG, NULL, "print numbers about model and picture", &out->summary, 0,
-         0},
+        {"summary", 0, OPTION_OPTIONAL, SUMMARY_NAMES,
+         "print these numbers about model and picture; without names\nall but area and volume",
+         &out->summary, 0, 0},
+        {"density", 0, OPTION_NUMBER, "G", "print the mass too, of a material of G grams per cm3",
+         &out->density, 1e-9, 1e9},
+        {"summary-file", 0, OPTION_TEXT, "FILE",
+         "write them there as JSON instead; - is standard output", &out->summary_file, 0, 0},
     };
     const struct program program = {
         .name = "hcsg-render",

@@ -8,8 +8,11 @@ struct given {
     struct option_list outputs;
     const char *export_format, *camera, *projection, *view, *scheme, *transparency, *device;
     int size[2];
-    bool viewall, autocenter, summary, hard_warnings, quiet;
-    struct option_list render, preview;
+    bool viewall, autocenter, hard_warnings, quiet;
+    struct option_list render, preview, summary;
+    const char *summary_file, *rule;
+    double density;
+    uint32_t frames;
     uint32_t term_limit;
     uint32_t threads, megabytes;
     double epsilon;

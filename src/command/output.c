@@ -77,17 +77,6 @@ static bool write_ids(const char *path, const struct drawn *d, struct error *err
     return ok;
 }
 
-// The path with the name of the view in place of "%s". The caller frees it.
-static char *path_of_view(const char *path, const struct view *view)
-{
-    const char *mark = strstr(path, VIEW_MARK);
-    size_t size = strlen(path) + strlen(view->name) + 1;
-    char *name = mem_alloc(size);
-    snprintf(name, size, "%.*s%s%s", (int)(mark - path), path, view->name,
-             mark + strlen(VIEW_MARK));
-    return name;
-}
-
 static bool write_as(enum output_kind kind, enum export_format geometry, const char *path,
                      const struct drawn *d, struct error *err)
 {
@@ -109,12 +98,22 @@ static bool write_as(enum output_kind kind, enum export_format geometry, const c
     return model_export(d->model, geometry, path, err);
 }
 
+char *output_path(const struct output *o, const struct view *view)
+{
+    const char *mark = strstr(o->path, VIEW_MARK);
+    size_t size = strlen(o->path) + strlen(view->name) + 1;
+    char *name = mem_alloc(size);
+    snprintf(name, size, "%.*s%s%s", (int)(mark - o->path), o->path, view->name,
+             mark + strlen(VIEW_MARK));
+    return name;
+}
+
 bool output_write(const struct output *o, const struct drawn *d, const struct view *view,
                   struct error *err)
 {
     if (!view)
         return write_as(o->format->kind, o->format->geometry, o->path, d, err);
-    char *path = path_of_view(o->path, view);
+    char *path = output_path(o, view);
     bool ok = write_as(o->format->kind, o->format->geometry, path, d, err);
     free(path);
     return ok;

@@ -58,6 +58,29 @@ static bool is_map(enum output_kind kind)
     return kind != OUTPUT_PICTURE && kind != OUTPUT_GEOMETRY;
 }
 
+// A name of standard output must not be renamed over.
+static const char *file_or_stream(const char *path)
+{
+    return path && strcmp(path, "/dev/stdout") == 0 ? "-" : path;
+}
+
+static bool set_summary(struct request *out, const struct given *given, struct error *err)
+{
+    for (uint32_t i = 0; i < given->summary.count; i++)
+        if (!summary_parse(&out->summary, given->summary.items[i], err))
+            return false;
+    out->summary_file = file_or_stream(given->summary_file);
+    if (out->summary_file && !out->summary)
+        out->summary = SUMMARY_ALL;
+    out->density = given->density;
+    if (out->density > 0)
+        out->summary |= SUMMARY_MASS;
+    if (!out->summary_file || *out->summary_file)
+        return true;
+    error_set(err, "--summary-file: expected the name of a file, got ''");
+    return false;
+}
+
 static bool set_outputs(struct request *out, const struct given *given, struct error *err)
 {
     const struct output_format *asked = NULL;
@@ -67,12 +90,13 @@ static bool set_outputs(struct request *out, const struct given *given, struct e
         error_set(err, "--export-format: expected %s, got '%s'", names, given->export_format);
         return false;
     }
-    if (!given->outputs.count && !given->summary && !given->reference) {
+    if (!given->outputs.count && !out->summary && !given->reference) {
         error_set(err, "no output; give -o FILE.png");
         return false;
     }
     for (uint32_t i = 0; i < given->outputs.count; i++) {
-        const char *path = given->outputs.items[i], *extension = file_extension(path);
+        const char *path = file_or_stream(given->outputs.items[i]);
+        const char *extension = file_extension(path);
         if (!*path) {
             error_set(err, "--output: expected the name of a file, got ''");
             return false;
@@ -92,6 +116,48 @@ static bool set_outputs(struct request *out, const struct given *given, struct e
         out->outputs[out->output_count++] = (struct output){path, per_view, format};
     }
     return true;
+}
+
+static bool set_animation(struct request *out, const struct given *given, struct error *err)
+{
+    out->frames = given->frames;
+    if (!out->frames)
+        return true;
+    if (!out->is_scad) {
+        error_set(err, "--animate: only a .scad file has $t, not %s", out->input);
+        return false;
+    }
+    for (uint32_t i = 0; i < out->output_count; i++)
+        if (strcmp(out->outputs[i].path, "-") == 0) {
+            error_set(err, "--animate: standard output takes only one picture");
+            return false;
+        }
+    return true;
+}
+
+static bool set_rule(struct request *out, const struct given *given, struct error *err)
+{
+    bool targets = false;
+    out->rule = file_or_stream(given->rule);
+    for (uint32_t i = 0; i < out->output_count; i++)
+        targets |= strcmp(out->outputs[i].path, "-") != 0;
+    if (!out->rule || (targets && *out->rule))
+        return true;
+    error_set(err, targets ? "-d: expected the name of a file, got ''"
+                           : "-d: expected a file that is made, with -o");
+    return false;
+}
+
+// What goes there would be one behind the other.
+static bool check_streams(const struct request *r, struct error *err)
+{
+    int count = (r->summary_file && strcmp(r->summary_file, "-") == 0) +
+                (r->rule && strcmp(r->rule, "-") == 0);
+    for (uint32_t i = 0; i < r->output_count; i++)
+        count += strcmp(r->outputs[i].path, "-") == 0;
+    if (count > 1)
+        error_set(err, "standard output takes only one of the outputs, got %d for it", count);
+    return count <= 1;
 }
 
 static bool set_size(struct request *out, const struct given *given, struct error *err)
@@ -159,8 +225,7 @@ bool request_make(struct request *out, const struct given *given, struct error *
                             .memory = (size_t)given->megabytes << 20,
                             .import_folders = given->import_folders,
                             .hard_warnings = given->hard_warnings,
-                            .quiet = given->quiet,
-                            .summary = given->summary};
+                            .quiet = given->quiet};
     if (!set_input(out, given, err) || !set_openscad(out, given, err) ||
         !set_mode(out, given, err) || !check_device(given, err))
         return false;
@@ -168,12 +233,14 @@ bool request_make(struct request *out, const struct given *given, struct error *
     out->scheme = scheme_choose(given->scheme, &out->own_scheme, err);
     return out->scheme && set_transparency(out, given, err) && set_size(out, given, err) &&
            set_camera(out, given, err) && style_parse(&out->style, given, err) &&
-           set_outputs(out, given, err);
+           set_summary(out, given, err) && set_outputs(out, given, err) &&
+           set_animation(out, given, err) && set_rule(out, given, err) && check_streams(out, err);
 }
 
 bool request_draws(const struct request *r, const struct view *view)
 {
-    bool draws = !view && (r->summary || r->style.reference);
+    uint32_t of_picture = SUMMARY_CACHE | SUMMARY_TIME | SUMMARY_CAMERA;
+    bool draws = !view && ((r->summary & of_picture) || r->style.reference);
     for (uint32_t i = 0; i < r->output_count; i++)
         draws |= r->outputs[i].per_view == (view != NULL) &&
                  r->outputs[i].format->kind == OUTPUT_PICTURE;

@@ -3,6 +3,7 @@
 #include "command/format.h"
 #include "command/options.h"
 #include "command/style.h"
+#include "command/summary_parts.h"
 #include "command/view.h"
 #include "render/camera.h"
 #include "render/scheme_file.h"
@@ -40,7 +41,12 @@ struct request {       // borrows from the command line
     size_t memory;
     struct option_list import_folders;
     bool hard_warnings, quiet;
-    bool summary;
+    uint32_t summary;         // SUMMARY_*
+    const char *summary_file; // NULL: as text
+    double density;           // g/cm^3; 0: not given
+    const char *rule;         // for make; NULL: none
+    uint32_t frames;          // 0: no animation
+    char time[32];            // "$t=0.5" of a frame, or ""
 };
 
 bool request_make(struct request *out, const struct given *given, struct error *err);

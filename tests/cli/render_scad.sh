@@ -45,6 +45,23 @@ passes 'a.scad|' --preview=throwntogether
 passes 'a.scad|' --render --preview
 passes '-m|make -s|a.scad|' -m 'make -s'
 
+# Animations: a picture for each $t, from 0 on.
+echo 'cube(size = [1, 1, 1]);' >model
+"$render" --openscad ./fake --animate 4 -D a=1 -d x.d --summary camera --summary-file 'x y.json' -o x.png \
+    -o a.b/x a.scad 2>stderr
+[ $? -eq 2 ] && [ -e x00000.png ] && [ ! -e x00001.png ] && [ ! -e x.d ] ||
+    fault 'animation: goes on after a failure'
+mkdir a.b
+"$render" --openscad ./fake --animate 4 -D a=1 -d x.d --summary camera --summary-file 'x y.json' -o x.png \
+    -o a.b/x a.scad 2>stderr || fault "animation: $(cat stderr)"
+[ "$(tr '\n' '|' <arguments)" = '-D|a=1|-D|$t=0.75|a.scad|' ] || fault "animation: $(cat arguments)"
+for i in 0 1 2 3; do
+    [ -s x0000$i.png ] && [ -s a.b/x0000$i ] && [ -s "x y0000$i.json" ] || fault "animation: frame $i"
+done
+[ -e x.png ] || [ -e x00004.png ] && fault 'animation: too many frames'
+head -n 1 x.d | grep -q '^x00000.png a.b/x00000 x00001.png .* a.b/x00003: ' || fault "rule: $(cat x.d)"
+rm -rf x0* a.b x.d 'x y'*
+
 # Messages: all of them, none but errors, or the first warning as the reason to stop.
 printf 'ECHO: 5\nWARNING: odd thing in file a.scad, line 7\n' >said
 "$render" --openscad ./fake -o out.png a.scad 2>stderr || fault 'messages: failed'
@@ -73,8 +90,13 @@ expect '-P set: expected the file' -P set a.scad
 expect '-p sets.json: expected the name' -p sets.json a.scad
 expect "--render: expected nothing, cgal or force, got 'x'" --render=x a.scad
 expect "--preview: expected nothing or throwntogether, got 'x'" --preview=x a.scad
+expect '--animate: standard output' --animate=2 -o - a.scad
+expect '--animate: expected 1 to 99999' --animate=0 a.scad
 expect '/none: no such file' a.scad
 expect './gone: no such file' --openscad=./gone a.scad
+
+echo 'cube(size = [1, 1, 1]);' >a.csg
+expect '--animate: only a .scad file has $t, not a.csg' --animate=2 a.csg
 
 # What only a .scad has is told for a .csg, which is drawn all the same.
 echo 'cube(size = [1, 1, 1]);' >a.csg
