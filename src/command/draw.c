@@ -137,6 +137,8 @@ bool drawn_make(struct drawn *out, const struct request *r, const struct model *
         if (draws && !r->sorted)
             d.shader.layers = d.layers = layers_new(&d.shader);
     }
+    if (draws && r->view.edges)
+        d.shader.edges = d.facets = facets_new(m);
     if (draws)
         ok = !view && r->style.views.count ? draw_sheet(&d, err) : draw_picture(&d, view, err);
     if (ok && maps)
@@ -152,6 +154,7 @@ void drawn_free(struct drawn *d)
     if (d->device)
         cpu_device_delete(d->device);
     layers_delete(d->layers);
+    facets_delete(d->facets);
     shader_free(&d->shader);
     shot_free(&d->shot);
     map_free(&d->map);

@@ -1,6 +1,7 @@
 // draw.h - a model drawn as a request wants it: in one view, or in several side by side.
 #pragma once
 #include "command/request.h"
+#include "render/facets.h"
 #include "render/map.h"
 #include "render/shot.h"
 
@@ -10,6 +11,7 @@ struct drawn { // {0} is valid
     struct cpu_device *device;
     struct shader shader;
     struct layers *layers;
+    struct facets *facets; // when edges show
     struct render_settings settings;
     struct box box;       // to be shown
     struct camera camera; // the latest

@@ -13,6 +13,7 @@ static const struct {
 } names[] = {
     {"axes", offsetof(struct view_options, axes)},
     {"crosshairs", offsetof(struct view_options, crosshairs)},
+    {"edges", offsetof(struct view_options, edges)},
     {"scales", offsetof(struct view_options, scales)},
 };
 

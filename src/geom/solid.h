@@ -25,11 +25,20 @@ struct planes {
     uint32_t count, padded;
 };
 
+// What OpenSCAD draws of a solid, each with its borders when edges are wanted.
+enum solid_cut {
+    CUT_TRIANGLES, // of the mesh
+    CUT_FACES,     // whole
+    CUT_CAPS,      // faces across the z axis whole, of others the triangles
+    CUT_SIDES,     // the other way round
+};
+
 struct solid {
     struct mesh mesh;
     struct planes planes; // count 0 unless convex
     struct box bounds;    // of the vertices
     bool convex;
+    enum solid_cut cut;
     struct outline outline; // of a plate that shows a flat shape: that shape; else empty
     uint64_t hash;          // of the content: equal solids have equal hashes
 };

@@ -181,7 +181,7 @@ static const struct solid *load_mesh(struct builder *b, const struct args *args,
         else if (b->messages->warnings != warnings) // not to be found: a reload says it again
             solid = store_mesh(b->store, &m, false);
         else
-            solid = store_add(b->store, key, &m, false);
+            solid = store_add(b->store, key, &m, false, CUT_TRIANGLES);
     }
     free(data);
     return solid && solid->mesh.triangle_count ? solid : NULL;

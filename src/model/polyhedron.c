@@ -129,7 +129,7 @@ static const struct solid *make_solid(struct builder *b, const struct args *args
     mesh_orient(&m->mesh);
     // Not to be found ready, so that a reload says it again.
     return failed ? store_mesh(b->store, &m->mesh, false)
-                  : store_add(b->store, key, &m->mesh, false);
+                  : store_add(b->store, key, &m->mesh, false, CUT_TRIANGLES);
 }
 
 const struct solid *shape_polyhedron(struct builder *b, const struct args *args, struct affine *out)

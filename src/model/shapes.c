@@ -52,7 +52,7 @@ const struct solid *shape_cube(struct builder *b, const struct args *args, struc
         return solid;
     struct mesh m;
     primitive_cube(&m);
-    return store_add(b->store, key, &m, true);
+    return store_add(b->store, key, &m, true, CUT_FACES);
 }
 
 const struct solid *shape_sphere(struct builder *b, const struct args *args, struct affine *out)
@@ -69,7 +69,7 @@ const struct solid *shape_sphere(struct builder *b, const struct args *args, str
         return solid;
     struct mesh m;
     primitive_sphere(&m, n);
-    return store_add(b->store, key, &m, true);
+    return store_add(b->store, key, &m, true, CUT_CAPS);
 }
 
 const struct solid *shape_cylinder(struct builder *b, const struct args *args, struct affine *out)
@@ -95,5 +95,5 @@ const struct solid *shape_cylinder(struct builder *b, const struct args *args, s
         return solid;
     struct mesh m;
     primitive_cylinder(&m, n, r1 / r, r2 / r);
-    return store_add(b->store, key, &m, true);
+    return store_add(b->store, key, &m, true, r1 == r2 ? CUT_FACES : CUT_CAPS);
 }

@@ -175,10 +175,12 @@ const struct solid *store_find(struct solid_store *s, uint64_t key)
     return e ? &e->solid : NULL;
 }
 
-const struct solid *store_add(struct solid_store *s, uint64_t key, struct mesh *m, bool convex)
+const struct solid *store_add(struct solid_store *s, uint64_t key, struct mesh *m, bool convex,
+                              enum solid_cut cut)
 {
     struct entry *e = mem_zalloc(sizeof *e);
     solid_from_mesh(&e->solid, m, convex, key);
+    e->solid.cut = cut;
     return &add(s, e)->solid;
 }
 
@@ -189,7 +191,7 @@ const struct solid *store_mesh(struct solid_store *s, struct mesh *m, bool conve
     key = hash_bytes(key, m->triangles, m->triangle_count * sizeof *m->triangles);
     const struct solid *solid = store_find(s, key);
     if (!solid)
-        return store_add(s, key, m, convex);
+        return store_add(s, key, m, convex, CUT_TRIANGLES);
     mesh_free(m);
     return solid;
 }
@@ -205,6 +207,7 @@ const struct solid *store_plate(struct solid_store *s, const struct outline *o)
     bool convex;
     extrude_slab(&m, o, -0.5, 0.5, &convex);
     solid_from_mesh(&e->solid, &m, convex, key);
+    e->solid.cut = CUT_SIDES;
     outline_copy(&e->solid.outline, o);
     return &add(s, e)->solid;
 }

@@ -8,7 +8,8 @@
 // The key is a hash of what the solid is made from. NULL when it is not there.
 const struct solid *store_find(struct solid_store *s, uint64_t key);
 // Takes the mesh over (leaves *m empty). The key must not be there yet.
-const struct solid *store_add(struct solid_store *s, uint64_t key, struct mesh *m, bool convex);
+const struct solid *store_add(struct solid_store *s, uint64_t key, struct mesh *m, bool convex,
+                              enum solid_cut cut);
 
 // The plate that shows a flat shape, z from -0.5 to 0.5; NULL for an empty one.
 const struct solid *store_plate(struct solid_store *s, const struct outline *o);

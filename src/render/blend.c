@@ -2,6 +2,7 @@
 #include "render/blend.h"
 
 #include "base/mem.h"
+#include "render/edges.h"
 
 #include <stdlib.h>
 
@@ -53,11 +54,24 @@ static bool take_pixel(const struct drawing *d, size_t pixel, struct side side)
     return true;
 }
 
+struct rgba blend_colour(const struct drawing *d, struct shade_cache *cache, size_t pixel,
+                         uint32_t leaf, uint32_t face)
+{
+    const struct shader *s = d->shader;
+    if (s->edges && face != SURFACE_CAP) {
+        size_t width = (size_t)d->picture->width;
+        double cover = edges_cover(s->edges, &s->model->bodies[d->body].leaves[leaf], face, d->rays,
+                                   (int)(pixel % width), (int)(pixel / width));
+        if (cover > 0)
+            return shade_edge(s, d->body, &d->light, leaf, face, cover);
+    }
+    return shade_cached(cache, s, d->body, &d->light, leaf, face);
+}
+
 static void mix_face(const struct drawing *d, struct shade_cache *cache, size_t pixel,
                      uint32_t leaf, uint32_t face)
 {
-    struct rgba c = shade_cached(cache, d->shader, d->body, &d->light, leaf_of_body(d, leaf), face);
-    mix(d->picture->rgb + 3 * pixel, c);
+    mix(d->picture->rgb + 3 * pixel, blend_colour(d, cache, pixel, leaf_of_body(d, leaf), face));
 }
 
 void blend_surface(const struct drawing *d, struct shade_cache *cache, size_t pixel)
@@ -169,6 +183,7 @@ static bool part_is_new(struct parts_seen *seen, uint32_t part)
 struct ray_state {
     const struct drawing *drawing;
     struct shade_cache *cache;
+    size_t pixel;
     struct colours_met layers;
     struct parts_seen seen;
     float limit;      // surfaces behind it are hidden
@@ -191,13 +206,14 @@ static bool meet_surface(struct ray_state *r, float depth, uint32_t leaf, uint32
         r->near = (struct span){.enter = depth, .enter_leaf = leaf, .enter_face = face};
     r->shown = true;
     struct colours_met *l = &r->layers;
-    l->colours[l->count++] = shade_cached(r->cache, d->shader, d->body, &d->light, leaf, face);
+    l->colours[l->count++] = blend_colour(d, r->cache, r->pixel, leaf, face);
     l->through *= 1 - (float)m->alpha / 255;
     return l->through > FAINTEST && l->count < LAYERS;
 }
 
-static void finish_ray(const struct ray_state *r, size_t pixel)
+static void finish_ray(const struct ray_state *r)
 {
+    size_t pixel = r->pixel;
     struct picture *p = r->drawing->picture;
     if (!r->shown)
         return;
@@ -222,6 +238,7 @@ void blend_sorted(void *context, uint32_t worker, const struct span_block *block
     for (int y = block->y0; y < block->y1; y++) {
         for (int x = block->x0; x < block->x1; x++, i++) {
             size_t pixel = (size_t)y * (size_t)d->picture->width + (size_t)x;
+            r.pixel = pixel;
             r.limit = d->picture->depth[pixel] + d->tolerance;
             r.layers.count = r.seen.count = 0;
             r.layers.through = 1;
@@ -233,7 +250,7 @@ void blend_sorted(void *context, uint32_t worker, const struct span_block *block
                        s->leave_leaf != SURFACE_NONE &&
                        meet_surface(&r, s->leave, s->leave_leaf, s->leave_face, true);
             }
-            finish_ray(&r, pixel);
+            finish_ray(&r);
         }
     }
 }

@@ -9,6 +9,7 @@ struct drawing {
     const struct body_shading *shading;
     uint32_t body;
     struct light light;
+    const struct rays *rays;
     const struct layer *layer;     // NULL: the whole body
     const uint32_t *twin_of;       // per leaf of the body; NULL: picture->owners are not kept
     struct surface_image *surface; // that the device fills
@@ -16,6 +17,10 @@ struct drawing {
     bool first;                    // nothing was drawn before it
     float tolerance;               // depths within it are equal
 };
+
+// What a face of a leaf of the body shows in a pixel: its light, and its edges if they are wanted.
+struct rgba blend_colour(const struct drawing *d, struct shade_cache *cache, size_t pixel,
+                         uint32_t leaf, uint32_t face);
 
 // Shows the surface that the device found in a pixel unless another one lies in front of it, and
 // hides what lies behind it.

@@ -112,9 +112,9 @@ static void shade_runs(const struct drawing *d, struct shade_cache *cache, int y
             continue;
         }
         uint32_t face = s->face[i];
-        while (next < end && s->leaf[next] == leaf && s->face[next] == face)
+        while (!d->shader->edges && next < end && s->leaf[next] == leaf && s->face[next] == face)
             next++;
-        struct rgba c = shade_cached(cache, d->shader, d->body, &d->light, leaf, face);
+        struct rgba c = blend_colour(d, cache, i, leaf, face);
         fill(d->picture->rgb + 3 * i, (uint8_t[3]){c.r, c.g, c.b}, next - i);
     }
 }
@@ -208,6 +208,7 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
                             .shading = &shader->bodies[b],
                             .body = b,
                             .light = light_of(rays),
+                            .rays = rays,
                             .surface = main ? &p->surface : &p->scratch,
                             .record = main,
                             .first = begun && b == 0,

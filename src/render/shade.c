@@ -118,18 +118,29 @@ static bool shows_back(const struct shader *s, uint32_t body, const struct light
     return face == SURFACE_CAP || facing_back(&s->facing, b, leaf, face, &light->from);
 }
 
-struct rgba shade_face(const struct shader *s, uint32_t body, const struct light *light,
-                       uint32_t leaf, uint32_t face)
+struct rgba shade_edge(const struct shader *s, uint32_t body, const struct light *light,
+                       uint32_t leaf, uint32_t face, double cover)
 {
     const struct leaf *placed = &s->model->bodies[body].leaves[leaf];
     const struct material *m = &s->bodies[body].materials[leaf];
     struct vec3 normal =
         face == SURFACE_CAP ? light->view_axis : normals_find(&s->normals, placed, face);
     double factor = m->unlit ? 1 : AMBIENT + fabs(vec3_dot(normal, light->direction));
-    if (shows_back(s, body, light, leaf, face))
-        return (struct rgba){to_byte(factor), 0, to_byte(factor), 255};
-    return (struct rgba){to_byte((double)m->r * factor), to_byte((double)m->g * factor),
-                         to_byte((double)m->b * factor), m->alpha};
+    double colour[] = {(double)m->r, (double)m->g, (double)m->b}, alpha = m->alpha / 255.0;
+    if (shows_back(s, body, light, leaf, face)) {
+        colour[0] = colour[2] = alpha = 1;
+        colour[1] = 0;
+    }
+    uint8_t mixed[3];
+    for (int i = 0; i < 3; i++)
+        mixed[i] = to_byte(colour[i] * factor * (1 - cover) + (colour[i] + 1) / 2 * cover);
+    return (struct rgba){mixed[0], mixed[1], mixed[2], to_byte(alpha * (1 - cover) + cover)};
+}
+
+struct rgba shade_face(const struct shader *s, uint32_t body, const struct light *light,
+                       uint32_t leaf, uint32_t face)
+{
+    return shade_edge(s, body, light, leaf, face, 0);
 }
 
 void shade_cache_clear(struct shade_cache *c)

@@ -34,6 +34,8 @@ struct shader {
     struct facing facing; // THROWN_TOGETHER
     // The order in which see-through surfaces are drawn, borrowed; NULL: the far ones first.
     const struct layers *layers;
+    // What edges to show, borrowed; NULL: none.
+    const struct facets *edges;
 };
 
 void shader_init(struct shader *out, const struct model *m, const struct scheme *scheme);
@@ -49,6 +51,10 @@ struct light light_of(const struct rays *rays);
 // The lit colour of a face of a leaf (SURFACE_CAP included).
 struct rgba shade_face(const struct shader *s, uint32_t body, const struct light *light,
                        uint32_t leaf, uint32_t face);
+
+// The same where an edge covers a share of the pixel: its colour is lighter, unlit and opaque.
+struct rgba shade_edge(const struct shader *s, uint32_t body, const struct light *light,
+                       uint32_t leaf, uint32_t face, double cover);
 
 // Lit colours met lately. Neighbouring pixels mostly show the same few faces.
 enum { SHADE_CACHE = 512 };
