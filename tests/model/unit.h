@@ -13,8 +13,9 @@
 #include <cmocka.h>
 
 // A model of a text as if it stood in the file `name`.
-static inline void model_of_text(struct model *out, const char *name, const char *text,
-                                 struct solid_store *store, struct messages *messages)
+static inline void model_of_text_as(struct model *out, enum model_mode mode, const char *name,
+                                    const char *text, struct solid_store *store,
+                                    struct messages *messages)
 {
     size_t size = strlen(text);
     char *copy = mem_zalloc(size + 2);
@@ -25,9 +26,16 @@ static inline void model_of_text(struct model *out, const char *name, const char
         fail_msg("%s does not parse", text);
     }
     struct model_options options = MODEL_DEFAULTS;
+    options.mode = mode;
     model_build(out, &tree, store, &options, messages);
     csg_free(&tree);
     free(copy);
+}
+
+static inline void model_of_text(struct model *out, const char *name, const char *text,
+                                 struct solid_store *store, struct messages *messages)
+{
+    model_of_text_as(out, MODEL_PREVIEW, name, text, store, messages);
 }
 
 // Volume of a leaf where it stands.
