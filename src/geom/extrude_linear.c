@@ -11,13 +11,14 @@ struct rise {
     struct vec3 low, high; // where the origin of the outline goes
     uint32_t slices;
     bool convex;
+    uint32_t sides;             // convex: the first face of them
     struct vec2 *lower, *upper; // the outline as it is below and above the slice at work
 };
 
 // One slice of the side that stands on an edge.
 struct quad {
     uint32_t prev1, curr1, prev2, curr2; // below, above
-    uint32_t face;
+    uint32_t face;                       // of a convex solid
     bool flat;
 };
 
@@ -90,8 +91,8 @@ static void add_band(struct rise *r, uint32_t top, uint32_t begin, uint32_t end,
         int order = compare_lengths(r->lower[i], r->upper[j], r->lower[j], r->upper[i]);
         bool from_prev1 = order < 0 || (order == 0 && hole == backward);
         bool along_axis = o->points[i].x == o->points[j].x || o->points[i].y == o->points[j].y;
-        struct quad q = {below + i, below + j, above + i,
-                         above + j, i,         !bends || (r->how->twist == 0 && along_axis)};
+        struct quad q = {below + i, below + j,    above + i,
+                         above + j, r->sides + i, !bends || (r->how->twist == 0 && along_axis)};
         add_quad(r, &q, from_prev1 != to_line);
     }
 }
@@ -105,6 +106,7 @@ static double path_area(const struct outline *o, uint32_t begin, uint32_t end)
     return outline_area(&path);
 }
 
+// Faces come in OpenSCAD's order, by which it draws what can be seen through: bottom, top, sides.
 static void build(struct mesh *out, struct rise *r)
 {
     const struct outline *o = r->rings.o;
@@ -115,20 +117,21 @@ static void build(struct mesh *out, struct rise *r)
     for (uint32_t path = 0, begin = 0; path < o->path_count; begin = o->ends[path++])
         holes[path] = path_area(o, begin, o->ends[path]) < 0;
 
-    if (r->convex) // side i is face i
-        r->rings.b.mesh.face_count = o->point_count;
+    rings_cap(&r->rings, 0, true);
+    rings_cap(&r->rings, r->slices, false);
+    r->sides = r->rings.b.mesh.face_count;
+    if (r->convex) // one face for all slices of a side
+        r->rings.b.mesh.face_count += o->point_count;
     add_ring(r, 0);
     for (uint32_t top = 1; top <= r->slices; top++) {
         add_ring(r, top);
         for (uint32_t path = 0, begin = 0; path < o->path_count; begin = o->ends[path++])
             add_band(r, top, begin, o->ends[path], holes[path]);
     }
-    rings_cap(&r->rings, r->slices, false);
     free(holes);
     free(r->lower);
     free(r->upper);
-    *out = r->rings.b.mesh;
-    mesh_weld(out);
+    rings_finish(&r->rings, out);
 }
 
 bool extrude_linear(struct mesh *out, const struct outline *o, const struct linear_extrusion *given,

@@ -33,23 +33,22 @@ void rings_reserve(struct rings *r, uint32_t bands)
     array_reserve(&b->mesh.faces, &b->face_room, triangles);
 }
 
-static void add_cap(struct rings *r, uint32_t (*triangles)[3], uint32_t count, uint32_t ring,
-                    bool reversed)
+void rings_cap(struct rings *r, uint32_t ring, bool reversed)
 {
+    if (!r->cap)
+        outline_triangulate(r->o, &r->cap, &r->cap_count);
     uint32_t face = mesh_add_face(&r->b), first = ring * r->o->point_count;
-    for (uint32_t t = 0; t < count; t++) {
-        uint32_t i = first + triangles[t][0];
-        uint32_t j = first + triangles[t][reversed ? 2 : 1];
-        uint32_t k = first + triangles[t][reversed ? 1 : 2];
+    for (uint32_t t = 0; t < r->cap_count; t++) {
+        uint32_t i = first + r->cap[t][0];
+        uint32_t j = first + r->cap[t][reversed ? 2 : 1];
+        uint32_t k = first + r->cap[t][reversed ? 1 : 2];
         mesh_add_triangle(&r->b, i, j, k, face);
     }
 }
 
-void rings_cap(struct rings *r, uint32_t last, bool reversed)
+void rings_finish(struct rings *r, struct mesh *out)
 {
-    uint32_t(*triangles)[3], count;
-    outline_triangulate(r->o, &triangles, &count);
-    add_cap(r, triangles, count, 0, !reversed);
-    add_cap(r, triangles, count, last, reversed);
-    free(triangles);
+    free(r->cap);
+    *out = r->b.mesh;
+    mesh_weld(out);
 }

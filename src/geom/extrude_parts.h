@@ -7,6 +7,8 @@
 struct rings {
     const struct outline *o;
     struct mesh_builder b;
+    uint32_t (*cap)[3]; // triangles over the outline's points, made with the first cap
+    uint32_t cap_count;
 };
 
 bool rings_are_finite(const struct outline *o); // has it numbers only?
@@ -14,9 +16,9 @@ bool rings_are_finite(const struct outline *o); // has it numbers only?
 bool rings_fit(const struct outline *o, double bands, struct error *err);
 // Room for all of it at once.
 void rings_reserve(struct rings *r, uint32_t bands);
-// The caps of the first and the last ring, each one face. The last one looks along the outline's z
-// unless it is reversed.
-void rings_cap(struct rings *r, uint32_t last, bool reversed);
+// The inside of a ring as one face, which looks along the outline's z unless it is reversed.
+void rings_cap(struct rings *r, uint32_t ring, bool reversed);
+void rings_finish(struct rings *r, struct mesh *out); // gives the mesh over, welded
 
 // The number of slices where none is given; may be beyond all numbers of an integer.
 double linear_slices(const struct outline *o, const struct linear_extrusion *how);

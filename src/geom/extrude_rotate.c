@@ -22,20 +22,19 @@ static void add_ring(struct turn *t, uint32_t ring)
     }
 }
 
-// The sides between a ring and the next one. Each is flat: its edges in the rings' planes meet the
-// axis in one point, or run along it.
-static void add_band(struct turn *t, uint32_t ring, uint32_t next, bool reversed)
+// The sides of a path between a ring and the next one. Each is flat: its edges in the rings' planes
+// meet the axis in one point, or run along it.
+static void add_band(struct turn *t, uint32_t ring, uint32_t next, uint32_t begin, uint32_t end,
+                     bool reversed)
 {
-    const struct outline *o = t->rings.o;
     struct mesh_builder *b = &t->rings.b;
-    uint32_t here = ring * o->point_count, there = next * o->point_count;
-    for (uint32_t path = 0, begin = 0; path < o->path_count; begin = o->ends[path++])
-        for (uint32_t i = begin; i < o->ends[path]; i++) {
-            uint32_t j = i + 1 < o->ends[path] ? i + 1 : begin, face = mesh_add_face(b);
-            uint32_t middle[2] = {reversed ? here + j : there + i, reversed ? there + i : here + j};
-            mesh_add_triangle(b, here + i, middle[0], there + j, face);
-            mesh_add_triangle(b, here + i, there + j, middle[1], face);
-        }
+    uint32_t here = ring * t->rings.o->point_count, there = next * t->rings.o->point_count;
+    for (uint32_t i = begin; i < end; i++) {
+        uint32_t j = i + 1 < end ? i + 1 : begin, face = mesh_add_face(b);
+        uint32_t middle[2] = {reversed ? here + j : there + i, reversed ? there + i : here + j};
+        mesh_add_triangle(b, here + i, middle[0], there + j, face);
+        mesh_add_triangle(b, here + i, there + j, middle[1], face);
+    }
 }
 
 static void build(struct mesh *out, struct turn *t, bool reversed)
@@ -44,12 +43,15 @@ static void build(struct mesh *out, struct turn *t, bool reversed)
     uint32_t last = t->full ? t->bands - 1 : t->bands;
     for (uint32_t ring = 0; ring <= last; ring++)
         add_ring(t, ring);
-    for (uint32_t ring = 0; ring < t->bands; ring++)
-        add_band(t, ring, ring < last ? ring + 1 : 0, reversed);
-    if (!t->full)
+    if (!t->full) {
+        rings_cap(&t->rings, 0, reversed);
         rings_cap(&t->rings, last, !reversed);
-    *out = t->rings.b.mesh;
-    mesh_weld(out);
+    }
+    const struct outline *o = t->rings.o;
+    for (uint32_t path = 0, begin = 0; path < o->path_count; begin = o->ends[path++])
+        for (uint32_t ring = 0; ring < t->bands; ring++)
+            add_band(t, ring, ring < last ? ring + 1 : 0, begin, o->ends[path], reversed);
+    rings_finish(&t->rings, out);
 }
 
 bool extrude_rotate(struct mesh *out, const struct outline *o, const struct rotation_extrusion *how,

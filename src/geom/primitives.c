@@ -93,15 +93,15 @@ void primitive_cylinder(struct mesh *out, uint32_t n, double r1, double r2)
     struct mesh_builder b = {0};
     uint32_t bottom = r1 > 0 ? add_ring(&b, n, r1, 0) : mesh_add_vertex(&b, (struct vec3){0});
     uint32_t top = r2 > 0 ? add_ring(&b, n, r2, 1) : mesh_add_vertex(&b, (struct vec3){0, 0, 1});
-    if (r1 > 0)
-        add_cap(&b, bottom, n, false);
-    if (r2 > 0)
-        add_cap(&b, top, n, true);
     if (r1 > 0 && r2 > 0)
         add_band(&b, bottom, top, n);
     else if (r1 > 0)
         add_cone_side(&b, bottom, top, n, true);
     else
         add_cone_side(&b, top, bottom, n, false);
+    if (r1 > 0)
+        add_cap(&b, bottom, n, false);
+    if (r2 > 0)
+        add_cap(&b, top, n, true);
     *out = b.mesh;
 }

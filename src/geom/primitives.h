@@ -1,4 +1,4 @@
-// primitives.h - cube, sphere and cylinder cut into faces exactly as OpenSCAD does it.
+// primitives.h - cube, sphere and cylinder cut into faces exactly as OpenSCAD does it, in its order.
 #pragma once
 #include "geom/solid.h"
 

@@ -125,6 +125,14 @@ static int by_turn(const void *a, const void *b)
     return (l->face > r->face) - (l->face < r->face);
 }
 
+static int by_face(const void *a, const void *b)
+{
+    const struct side *l = a, *r = b;
+    if (l->leaf != r->leaf)
+        return (l->leaf > r->leaf) - (l->leaf < r->leaf);
+    return (l->face > r->face) - (l->face < r->face);
+}
+
 void blend_both_sides(void *context, uint32_t worker, const struct span_block *block)
 {
     (void)worker;
@@ -140,15 +148,15 @@ void blend_both_sides(void *context, uint32_t worker, const struct span_block *b
             for (uint32_t k = block->first[i]; k < block->first[i + 1]; k++) {
                 const struct span *s = &block->spans[k];
                 if (s->leave_leaf != SURFACE_NONE)
-                    sides[count++] = (struct side){true, 0, s->leave_face, s->leave};
-                sides[count++] = (struct side){false, 0, s->enter_face, s->enter};
+                    sides[count++] = (struct side){true, s->leave_leaf, s->leave_face, s->leave};
+                sides[count++] = (struct side){false, s->enter_leaf, s->enter_face, s->enter};
             }
-            if (count > 2)
-                qsort(sides, count, sizeof *sides, by_turn);
+            if (count > 2 || d->layer->in_turn)
+                qsort(sides, count, sizeof *sides, d->layer->in_turn ? by_face : by_turn);
             size_t pixel = (size_t)y * (size_t)d->picture->width + (size_t)x;
             for (uint32_t k = 0; k < count; k++)
                 if (take_pixel(d, pixel, sides[k]))
-                    mix_face(d, &cache, pixel, 0, sides[k].face);
+                    mix_face(d, &cache, pixel, sides[k].leaf, sides[k].face);
         }
     }
     free(sides);

@@ -30,7 +30,8 @@ void blend_surface(const struct drawing *d, struct shade_cache *cache, size_t pi
 void blend_repeated(const struct drawing *d, struct shade_cache *cache, size_t from, size_t to);
 
 // Sinks of cpu_spans, with a struct drawing as their context.
-// A leaf alone: its back faces, then its front faces, each in the order of their numbers.
+// What stands alone: its back faces, then its front faces, each in the order of their numbers, or
+// all in that order.
 void blend_both_sides(void *context, uint32_t worker, const struct span_block *block);
 // A body: its surfaces from the back, whatever their order in the file. Of an object that is cut or
 // intersected only the nearest one shows, of one that stands alone also its far side.

@@ -13,7 +13,7 @@
 enum { PRODUCT_LEAVES = 100000 };
 
 struct builder {
-    bool back_faces; // of what stands alone are drawn
+    bool thrown; // together
     const struct body *body;
     const struct expr *e; // the body's
     const struct material *materials;
@@ -107,7 +107,8 @@ static void end_layer(struct builder *b, bool see_through)
         .body = {.kind = b->body->kind, .leaves = b->leaves, .leaf_count = b->leaf_count},
         .leaf_of = b->leaf_of,
         .see_through = see_through,
-        .both_sides = see_through && b->back_faces && b->leaf_count == 1};
+        .both_sides = see_through && (b->thrown ? b->body->kind != BODY_MAIN : b->leaf_count == 1),
+        .in_turn = b->thrown};
     expr_build(&layer->body.expr, b->tokens, b->token_count, b->leaf_count);
     b->leaves = NULL;
     b->leaf_of = NULL;
@@ -126,7 +127,7 @@ static bool product_is_opaque(const struct builder *b, const uint32_t *leaves, s
 static void add_part(struct builder *b, uint32_t node)
 {
     struct products products;
-    if (!products_build(&products, b->e, node, b->boxes, PRODUCT_LEAVES)) {
+    if (b->thrown || !products_build(&products, b->e, node, b->boxes, PRODUCT_LEAVES)) {
         end_layer(b, false);
         put_subtree(b, node);
         end_layer(b, true);
@@ -171,7 +172,7 @@ static void body_layers_init(struct body_layers *out, const struct shader *shade
     const struct body *body = &shader->model->bodies[number];
     struct builder b = {.body = body,
                         .materials = shader->bodies[number].materials,
-                        .back_faces = shader->model->mode != MODEL_THROWN_TOGETHER,
+                        .thrown = shader->model->mode == MODEL_THROWN_TOGETHER,
                         .out = out};
     const struct expr *e = b.e = body->whole.node_count ? &body->whole : &body->expr;
     const struct expr_node *root = &e->nodes[e->root];
@@ -317,7 +318,8 @@ struct layers *layers_new(const struct shader *shader)
     for (uint32_t i = 0; i < m->body_count; i++)
         if (!shader->bodies[i].opaque)
             body_layers_init(&out->bodies[i], shader, i);
-    find_repeats(out, m);
+    if (m->mode != MODEL_THROWN_TOGETHER)
+        find_repeats(out, m);
     return out;
 }
 

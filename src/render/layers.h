@@ -9,6 +9,9 @@
 // The faces of a product of several leaves are drawn where the depth buffer holds just their depth.
 // So they are drawn once more where an earlier product left a face of the same leaf there, be it
 // part of this product's surface or not.
+//
+// Of shapes thrown together each is drawn for itself: the model's without their back faces, those
+// of other bodies face by face.
 #pragma once
 #include "render/shade.h"
 
@@ -25,7 +28,8 @@ struct layer {
     struct body body;       // with copies of the leaves that stand in it
     uint32_t *leaf_of;      // per leaf of it: number in the body that is drawn
     bool see_through;       // false: all it shows is opaque
-    bool both_sides;        // one leaf alone whose back faces show too
+    bool both_sides;        // what stands alone, whose back faces show, too
+    bool in_turn;           // both_sides: faces by their numbers; else the back faces first
     struct factor *members; // sorted by twin; of see-through layers of several leaves
     bool repeats;           // a member was drawn before
 };
