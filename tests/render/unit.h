@@ -23,7 +23,7 @@ struct stage {
     struct render_settings settings;
 };
 
-static inline void stage_make(struct stage *s, const char *text)
+static inline void stage_make_as(struct stage *s, enum model_mode mode, const char *text)
 {
     struct messages messages = {0};
     struct error err;
@@ -32,11 +32,18 @@ static inline void stage_make(struct stage *s, const char *text)
     memcpy(copy, text, strlen(text));
     assert_true(csg_parse(&s->tree, "unit.csg", copy, strlen(text), &messages));
     free(copy);
-    model_build(&s->model, &s->tree, s->store, &MODEL_DEFAULTS, &messages);
+    struct model_options options = MODEL_DEFAULTS;
+    options.mode = mode;
+    model_build(&s->model, &s->tree, s->store, &options, &messages);
     assert_int_equal(messages.count, 0);
     messages_free(&messages);
     shader_init(&s->shader, &s->model, scheme_find("Cornfield", &err));
     s->settings = (struct render_settings){.epsilon = model_epsilon(&s->model, -1), .threads = 2};
+}
+
+static inline void stage_make(struct stage *s, const char *text)
+{
+    stage_make_as(s, MODEL_PREVIEW, text);
 }
 
 static inline void stage_free(struct stage *s)
