@@ -1,4 +1,4 @@
-// primitives.h - cube, sphere and cylinder cut into faces exactly as OpenSCAD does it, in its order.
+// primitives.h - cube, sphere and cylinder in the faces that OpenSCAD cuts them into, in its order.
 #pragma once
 #include "geom/solid.h"
 
