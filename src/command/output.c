@@ -34,11 +34,10 @@ static bool write_depthmap(const char *path, const struct drawn *d, struct error
         {"Depth farthest", farthest},
         {"Depth unit", "mm from the eye plane: 65535 nearest, 1 farthest, 0 nothing"},
     };
-    bool nothing = range.nearest > range.farthest;
     uint16_t *greys = mem_alloc(map_pixels(&d->map) * sizeof *greys);
     map_greys(&d->map, &d->rays, range, greys);
     bool ok = write_pixels(path, d, PNG_KIND_GREY16, greys, notes,
-                           nothing ? 0 : (uint32_t)array_count(notes), err);
+                           depth_range_is_known(range) ? (uint32_t)array_count(notes) : 0, err);
     free(greys);
     return ok;
 }

@@ -40,6 +40,7 @@ void summary_measure(struct summary *s)
 {
     const struct drawn *d = s->drawn;
     s->combinations = combinations(s->model);
+    s->depths = map_depth_range(&d->map, &d->rays);
     if (s->request->summary & SUMMARY_BOX)
         s->box = extent_find(d->device, s->model, &d->settings);
     if (s->request->summary & SUMMARY_MEASURED)
@@ -99,6 +100,8 @@ void summary_print(FILE *out, const struct summary *s)
         camera_print(&s->drawn->camera, camera);
         fprintf(out, "Camera:        --camera=%s\n", camera);
         fprintf(out, "Picture:       %d x %d\n", s->request->width, s->request->height);
+        if (depth_range_is_known(s->depths))
+            fprintf(out, "Depth:         %.9g to %.9g\n", s->depths.nearest, s->depths.farthest);
     }
     if (parts & SUMMARY_TIME)
         fprintf(out, "Time:          read %.1f ms, build %.1f ms, draw %.1f ms, write %.1f ms\n",

@@ -1,6 +1,7 @@
 // summary.h - numbers about a model and its picture.
 #pragma once
 #include "command/output.h"
+#include "render/map_image.h"
 #include "render/measure.h"
 
 struct timing {
@@ -15,6 +16,7 @@ struct summary {
     struct timing times;
     // Of summary_measure:
     struct discovery_stats combinations; // that the picture needed, of all bodies
+    struct depth_range depths;           // of an output with numbers per pixel
     struct box box;                      // of what is solid
     struct measure measure;              // of parts that are measured
 };

@@ -43,13 +43,19 @@ static void add_time(cJSON *to, const struct timing *t)
         cJSON_AddNumberToObject(steps, names[i], round(ms[i] * 1e6) / 1e3);
 }
 
-static void add_camera(cJSON *to, const struct camera *c)
+static void add_camera(cJSON *to, const struct summary *s)
 {
+    const struct camera *c = &s->drawn->camera;
     cJSON *camera = cJSON_AddObjectToObject(to, "camera");
     add_vector(camera, "translation", c->centre, 3);
     add_vector(camera, "rotation", c->rotation, 3);
     cJSON_AddNumberToObject(camera, "distance", c->distance);
     cJSON_AddNumberToObject(camera, "fov", c->fov);
+    if (!depth_range_is_known(s->depths))
+        return;
+    cJSON *depth = cJSON_AddObjectToObject(camera, "depth");
+    cJSON_AddNumberToObject(depth, "nearest", s->depths.nearest);
+    cJSON_AddNumberToObject(depth, "farthest", s->depths.farthest);
 }
 
 static void add_box(cJSON *to, struct box b, int dimensions)
@@ -122,7 +128,7 @@ bool summary_write(const char *path, const struct summary *s, struct error *err)
     if (parts & SUMMARY_MEASURED)
         add_measures(all, s);
     if (parts & SUMMARY_CAMERA)
-        add_camera(all, &s->drawn->camera);
+        add_camera(all, s);
     char *text = cJSON_Print(all);
     cJSON_Delete(all);
     size_t length = strlen(text);

@@ -6,6 +6,10 @@
 struct depth_range {
     double nearest, farthest;
 };
+static inline bool depth_range_is_known(struct depth_range r)
+{
+    return r.nearest <= r.farthest;
+}
 struct depth_range map_depth_range(const struct map *m, const struct rays *rays);
 
 // What each pixel becomes; `out` holds map_pixels(), of rgb three bytes each.

@@ -93,6 +93,9 @@ for format in depthmap pfm normals ids; do
 done
 [ "$(identify -format '%[bit-depth] %[Depth nearest] %[Depth farthest]' depthmap)" = '16 96 98' ] ||
     fault "depthmap: $(identify -format '%[bit-depth] %[Depth nearest] %[Depth farthest]' depthmap)"
+# shellcheck disable=SC2086
+"$render" $above --summary --export-format=depthmap -o depthmap steps.csg |
+    grep -q '^Depth: *96 to 98$' || fault 'summary: no depths'
 greys=$(convert depthmap -depth 16 -endian MSB gray:- | od -An -v -tu2 --endian=big -w2 | sort -nu |
     tr -s '\n ' ' ')
 [ "$greys" = ' 0 1 65535 ' ] || fault "depthmap: values$greys"
