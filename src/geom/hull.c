@@ -1,6 +1,7 @@
 // hull.c - convex hulls in space, on the Qhull library.
 #include "geom/hull.h"
 
+#include "base/hash.h"
 #include "base/mem.h"
 #include "geom/hull_parts.h"
 #include "geom/mesh.h"
@@ -12,25 +13,23 @@
 // About the first point and about 1 in size, so that rounding is relative to the extent. Scaling
 // is by powers of two and thus exact. *noise is how far the rounding of the points themselves may
 // have moved them.
-static double *normalized(const struct vec3 *points, uint32_t count, double *noise)
+static struct vec3 *normalized(const struct vec3 *points, uint32_t count, double *noise)
 {
     double largest = 0;
     for (uint32_t i = 0; i < count; i++)
         largest =
             fmax(largest, fmax(fabs(points[i].x), fmax(fabs(points[i].y), fabs(points[i].z))));
     double scale = ldexp(1, -ilogb(largest) - 1), extent = 0;
-    double *out = mem_alloc((size_t)count * 3 * sizeof *out);
+    struct vec3 *out = mem_alloc(count * sizeof *out);
     for (uint32_t i = 0; i < count; i++) {
         struct vec3 p = vec3_sub(vec3_scale(points[i], scale), vec3_scale(points[0], scale));
-        out[3 * i] = p.x;
-        out[3 * i + 1] = p.y;
-        out[3 * i + 2] = p.z;
+        out[i] = p;
         extent = fmax(extent, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
     }
     scale = ldexp(1, -ilogb(extent));
     *noise = 1e-14 + fmin(0x1p-52 * scale, 1e-10);
-    for (size_t i = 0; i < (size_t)count * 3; i++)
-        out[i] *= scale;
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = vec3_scale(out[i], scale);
     return out;
 }
 
@@ -90,28 +89,60 @@ static bool add_faces(struct hull_faces *f, qhT *qh, uint32_t count)
     return ok;
 }
 
+// What is done about points that are in one plane but for rounding: the library merges faces as it
+// goes on, which takes the square of the corners of a face; it moves the points by no more than
+// rounding does, and the triangles stay; or they are put together afterwards.
+enum way { MERGE, MOVE, MOVE_AND_MERGE };
+
 // The library reports through longjmp inside of its call and on a stream, which must not be
 // stderr.
 static bool hull_large(struct hull_faces *out, const struct vec3 *points, uint32_t count,
-                       bool merge)
+                       enum way way)
 {
     FILE *nowhere = fopencookie(NULL, "w", (cookie_io_functions_t){0});
     if (!nowhere)
         return false;
-    double noise, *coordinates = normalized(points, count, &noise);
+    double noise;
+    struct vec3 *places = normalized(points, count, &noise);
+    struct hull_faces triangles = {0}, *found = way == MOVE_AND_MERGE ? &triangles : out;
     char options[32];
-    snprintf(options, sizeof options, merge ? "qhull Pp E%.3g" : "qhull Pp QJ", noise);
+    snprintf(options, sizeof options, way == MERGE ? "qhull Pp E%.3g" : "qhull Pp QJ", noise);
     qhT *qh = mem_alloc(sizeof *qh);
     qh_zero(qh, nowhere);
-    bool ok = !qh_new_qhull(qh, 3, (int)count, coordinates, False, options, NULL, nowhere) &&
-              add_faces(out, qh, count);
+    bool ok = !qh_new_qhull(qh, 3, (int)count, &places->x, False, options, NULL, nowhere) &&
+              add_faces(found, qh, count);
     qh_freeqhull(qh, !qh_ALL);
     int blocks, bytes;
     qh_memfreeshort(qh, &blocks, &bytes);
     free(qh);
-    free(coordinates);
+    if (way == MOVE_AND_MERGE)
+        ok = ok && hull_merge(out, &triangles, places, count, 4 * noise);
+    free(triangles.corners);
+    free(triangles.ends);
+    free(places);
     fclose(nowhere);
     return ok;
+}
+
+// Would a face have thousands of corners? Told by the hull of some of the points.
+static bool has_round_faces(const struct vec3 *points, uint32_t count)
+{
+    enum { SAMPLE = 1024, CORNERS_FEW = 2000 };
+    if (count <= 2 * CORNERS_FEW)
+        return false;
+    struct vec3 *some = mem_alloc(SAMPLE * sizeof *some);
+    struct hull_faces f = {0};
+    uint64_t random = 0;
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < SAMPLE; i++)
+        some[i] = points[random_next(&random) % count];
+    if (hull_large(&f, some, SAMPLE, MERGE))
+        for (uint32_t i = 0, from = 0; i < f.face_count; from = f.ends[i++])
+            most = f.ends[i] - from > most ? f.ends[i] - from : most;
+    free(some);
+    free(f.corners);
+    free(f.ends);
+    return most > 12 && (double)most * count / SAMPLE > CORNERS_FEW;
 }
 
 // Corners of only two faces lie within an edge.
@@ -161,10 +192,12 @@ bool hull_solid(struct mesh *out, const struct vec3 *points, uint32_t count)
     bool ok = count <= HULL_SMALL && hull_small(&f, points, count) && drop_straight(&f, uses);
     // Where merging of nearly flat faces fails, points moved by less than rounding still tell the
     // corners.
-    for (int merge = 1; !ok && merge >= 0; merge--) {
+    bool round = !ok && has_round_faces(points, count);
+    const enum way ways[] = {MOVE_AND_MERGE, MERGE, MOVE};
+    for (uint32_t i = !round; !ok && i < array_count(ways); i++) {
         f.corner_count = f.face_count = 0;
         memset(uses, 0, (size_t)count * sizeof *uses);
-        ok = hull_large(&f, points, count, merge) && drop_straight(&f, uses);
+        ok = hull_large(&f, points, count, ways[i]) && drop_straight(&f, uses);
     }
     if (ok)
         to_mesh(out, &f, points, count, uses);

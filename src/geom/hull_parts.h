@@ -20,6 +20,11 @@ struct hull_faces {
     uint32_t corner_count, face_count, corner_room, face_room;
 };
 
+// Faces of three corners each, put together where they lie in one plane up to `flat`. False when
+// they do not close up or a face would have holes.
+bool hull_merge(struct hull_faces *out, const struct hull_faces *triangles,
+                const struct vec3 *points, uint32_t count, double flat);
+
 // The hull of at most HULL_SMALL points that have rank 3, by trying all planes: the set-up of the
 // library costs ten times that. False when rounding makes the faces doubtful.
 enum { HULL_SMALL = 12 };

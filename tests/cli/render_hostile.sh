@@ -89,6 +89,8 @@ for cut in true false; do
 done
 { printf 'text("' && repeat 12000 a && echo '", spacing = 0);'; } | draws 0 ''
 
+echo 'hull() { cylinder(r1 = 1, r2 = 1, h = 1, $fn = 20000); cube(0.1); }' | draws 0 ''
+
 # Nesting and length
 for node in 'group(){' 'hull(){' 'projection(){' 'resize([1, 0, 0]){'; do
     { repeat 20000 "$node" && echo 'cube();' && repeat 20000 '}'; } | draws 0 ''

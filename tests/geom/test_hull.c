@@ -244,6 +244,30 @@ static void outlines_have_strict_corners(void **state)
     free(circle);
 }
 
+// Two circles of thousands of corners are two faces and as many quadrilaterals; points within the
+// faces are no corners. Merging faces one by one takes the square of their corners.
+static void round_faces_are_quick(void **state)
+{
+    (void)state;
+    enum { CORNERS = 30000, INSIDE = 5000 };
+    struct vec3 *points = mem_alloc((2 * CORNERS + INSIDE) * sizeof *points);
+    double c = cos(0.5), s = sin(0.5), lean[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
+    for (uint32_t i = 0; i < 2 * CORNERS + INSIDE; i++) {
+        double angle = 2 * acos(-1) * (i / 2) / CORNERS, r = i < 2 * CORNERS ? 10 : 0.001 * i / 12;
+        struct vec3 p = {r * cos(angle), r * sin(angle), i % 2};
+        points[i] = (struct vec3){lean[0][0] * p.x + lean[0][2] * p.z, p.y,
+                                  lean[2][0] * p.x + lean[2][2] * p.z};
+    }
+    struct mesh m;
+    assert_true(hull_solid(&m, points, 2 * CORNERS + INSIDE));
+    assert_int_equal(m.face_count, CORNERS + 2);
+    assert_int_equal(m.vertex_count, 2 * CORNERS);
+    assert_true(mesh_is_closed(&m));
+    assert_close(mesh_volume(&m), CORNERS * 50 * sin(2 * acos(-1) / CORNERS), 1e-8);
+    mesh_free(&m);
+    free(points);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -254,6 +278,7 @@ int main(void)
         cmocka_unit_test(numbers_out_of_this_world_give_nothing),
         cmocka_unit_test(large_sets),
         cmocka_unit_test(outlines_have_strict_corners),
+        cmocka_unit_test(round_faces_are_quick),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
