@@ -34,3 +34,6 @@ uint64_t outline_hash(const struct outline *o);
 // Cuts the inside of a clean outline into counter-clockwise triangles over its own points, in
 // n log n. *triangles is the caller's to free. Points where paths touch may be used by any of them.
 void outline_triangulate(const struct outline *o, uint32_t (**triangles)[3], uint32_t *count);
+// The same of paths that only may be clean; clockwise ones give clockwise triangles. False, with
+// nothing to free, where they cross or touch.
+bool outline_try_triangulate(const struct outline *o, uint32_t (**triangles)[3], uint32_t *count);

@@ -1,13 +1,16 @@
-// polygon.c - cutting arbitrary polygons in space into triangles, with GLU's tessellator.
+// polygon.c - cutting arbitrary polygons in space into triangles, mostly with GLU's tessellator.
 #include "geom/polygon.h"
 
 #include "base/hash.h"
+#include "geom/outline.h"
 
 #include <GL/glu.h>
 #include <stdlib.h>
 
 // GLU takes some seconds for as many, and n sides may have n^2 / 2.
 enum { CROSSINGS_MOST = 200000 };
+// More are first tried another way.
+enum { CORNERS_MANY = 4096 };
 
 struct polygon_cutter {
     GLUtesselator *tess;
@@ -233,8 +236,36 @@ static bool crosses_too_often(const struct polygon_cutter *c, struct vec3 normal
     return pairs * hits / n > CROSSINGS_MOST;
 }
 
+// Seen along the main axis of the normal. GLU's time grows with the square of the corners.
+static bool cut_large(struct polygon_cutter *c, struct vec3 normal)
+{
+    double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
+    struct outline o = {0};
+    for (uint32_t i = 0; i < c->corner_count; i++) {
+        struct vec3 p = corner(c, i);
+        outline_add(&o, x >= y && x >= z ? (struct vec2){p.y, p.z}
+                        : y >= z         ? (struct vec2){p.z, p.x}
+                                         : (struct vec2){p.x, p.y});
+    }
+    outline_close(&o);
+    uint32_t(*triangles)[3], count;
+    bool done = outline_try_triangulate(&o, &triangles, &count);
+    outline_free(&o);
+    if (!done)
+        return false;
+    array_reserve(&c->triangles, &c->triangle_room, count);
+    for (uint32_t t = 0; t < count; t++)
+        for (int i = 0; i < 3; i++)
+            c->triangles[t][i] = c->corners[triangles[t][i]];
+    c->triangle_count = count;
+    free(triangles);
+    return true;
+}
+
 static void cut_any(struct polygon_cutter *c, struct vec3 unit_normal)
 {
+    if (c->corner_count > CORNERS_MANY && cut_large(c, unit_normal))
+        return;
     if (!c->tess || crosses_too_often(c, unit_normal)) {
         c->failed = true;
         return;

@@ -373,6 +373,15 @@ void cut_any(const outline &o, Triangles &out)
     out.clear();
     fan(o, out);
 }
+
+void give(const Triangles &found, uint32_t (**triangles)[3], uint32_t *count)
+{
+    size_t size = found.size() * sizeof found[0];
+    *triangles = static_cast<uint32_t(*)[3]>(mem_alloc(size));
+    if (size)
+        memcpy(*triangles, found.data(), size);
+    *count = static_cast<uint32_t>(found.size());
+}
 } // namespace
 
 extern "C" void outline_triangulate(const struct outline *o, uint32_t (**triangles)[3],
@@ -381,9 +390,15 @@ extern "C" void outline_triangulate(const struct outline *o, uint32_t (**triangl
     Triangles found;
     if (o->path_count > 0)
         cut_any(*o, found);
-    size_t size = found.size() * sizeof found[0];
-    *triangles = static_cast<uint32_t(*)[3]>(mem_alloc(size));
-    if (size)
-        memcpy(*triangles, found.data(), size);
-    *count = static_cast<uint32_t>(found.size());
+    give(found, triangles, count);
+}
+
+extern "C" bool outline_try_triangulate(const struct outline *o, uint32_t (**triangles)[3],
+                                        uint32_t *count)
+{
+    Triangles found;
+    if (!is_finite(*o) || !try_to_cut<Plain>(*o, found))
+        return false;
+    give(found, triangles, count);
+    return true;
 }

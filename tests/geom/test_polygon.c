@@ -179,6 +179,44 @@ static void tangles_are_refused(void **state)
     free(p);
 }
 
+// A star with 10,000 tips of any length, seen from both sides and along each axis.
+static void many_corners_are_quick(void **state)
+{
+    (void)state;
+    enum { MANY = 10000 };
+    struct vec3 *p = mem_alloc(MANY * sizeof *p);
+    for (int side = 0; side < 6; side++) {
+        uint64_t seed = 7;
+        double expected = 0, before = 1;
+        for (int i = 0; i < MANY; i++) {
+            double angle = 2 * M_PI * i / MANY * (side % 2 ? -1 : 1);
+            double r = i ? 1 + random_unit(&seed) : 1, x = r * cos(angle), y = r * sin(angle);
+            p[i] = side / 2 == 0   ? (struct vec3){x, y, 0.1 * x}
+                   : side / 2 == 1 ? (struct vec3){0.1 * x, x, y}
+                                   : (struct vec3){y, 0.1 * x, x};
+            expected += before * r * sin(2 * M_PI / MANY) / 2;
+            before = r;
+        }
+        expected += before * sin(2 * M_PI / MANY) / 2 - sin(2 * M_PI / MANY) / 2;
+        struct mesh_builder b;
+        assert_true(cut(&b, p, MANY));
+        assert_int_equal(b.mesh.triangle_count, MANY - 2);
+        assert_int_equal(b.mesh.vertex_count, MANY);
+        assert_int_equal(b.mesh.face_count, 1);
+        struct vec3 sum = {0};
+        for (uint32_t t = 0; t < b.mesh.triangle_count; t++) {
+            const uint32_t *c = b.mesh.triangles[t];
+            struct vec3 o = b.mesh.vertices[c[0]];
+            sum = vec3_add(sum, vec3_cross(vec3_sub(b.mesh.vertices[c[1]], o),
+                                           vec3_sub(b.mesh.vertices[c[2]], o)));
+        }
+        double along = side / 2 == 0 ? sum.z : side / 2 == 1 ? sum.x : sum.y;
+        assert_close(along / 2, side % 2 ? -expected : expected, 1e-9);
+        mesh_free(&b.mesh);
+    }
+    free(p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -189,6 +227,7 @@ int main(void)
         cmocka_unit_test(corners_on_an_edge_are_kept),
         cmocka_unit_test(strongly_bent_quads_keep_their_corners),
         cmocka_unit_test(tangles_are_refused),
+        cmocka_unit_test(many_corners_are_quick),
         cmocka_unit_test(nonsense_is_refused_or_harmless),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
