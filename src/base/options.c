@@ -60,7 +60,7 @@ static void set_unknown(const struct program *p, const char *name, size_t length
     for (uint32_t i = 0; i < total(p); i++) {
         const char *candidate = at(p, i)->name;
         uint32_t d = candidate ? distance(name, length, candidate) : best;
-        if (candidate && length > 2 && strncmp(candidate, name, length) == 0 && best)
+        if (candidate && length > 2 && d >= best && strncmp(candidate, name, length) == 0)
             d = best - 1; // shortened
         if (d < best) {
             best = d;

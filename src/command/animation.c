@@ -22,7 +22,6 @@ void animation_frame(struct request *out, const struct request *r, uint32_t numb
     *out = *r;
     if (!r->frames)
         return;
-    snprintf(out->time, sizeof out->time, "$t=%.17g", number * (1.0 / r->frames));
     for (uint32_t i = 0; i < r->output_count; i++)
         out->outputs[i].path = numbered(r->outputs[i].path, number);
     if (r->summary_file && strcmp(r->summary_file, "-") != 0)

@@ -119,46 +119,65 @@ static bool stops_at_warnings(const struct request *r, const struct messages *me
     return true;
 }
 
-static int run_frame(const struct request *r, struct solid_store *store, struct rule *rule)
+struct run {
+    struct input input;
+    struct solid_store *store; // frames have much in common
+    struct rule rule;
+    struct messages messages; // of the frame
+    double began;
+};
+
+static int run_frame(struct run *run, struct request *r, uint32_t number)
 {
     int code = EXIT_INPUT;
-    struct messages messages = {0};
-    struct input input = {0};
     struct model model = {0};
     struct timing times = {0};
-    double start = clock_seconds();
 
-    bool read = input_read(&input, r, &messages);
-    times.read = lap(&start);
+    if (r->is_scad && run->input.views[number].set) {
+        r->camera = run->input.views[number].camera;
+        r->viewall = r->autocenter = false;
+    }
+    bool read = input_read(&run->input, r, number, &run->messages);
+    times.read = lap(&run->began);
     if (read)
-        build_model(&model, r, &input, store, &messages);
-    times.build = lap(&start);
-    print_messages(r, &messages);
-    if (read && !stops_at_warnings(r, &messages))
-        code = produce(r, &model, &messages, &times, &start);
+        build_model(&model, r, &run->input, run->store, &run->messages);
+    times.build = lap(&run->began);
+    print_messages(r, &run->messages);
+    if (read && !stops_at_warnings(r, &run->messages))
+        code = produce(r, &model, &run->messages, &times, &run->began);
     if (code == EXIT_FINE && r->rule)
-        rule_note(rule, r, &input, &model);
+        rule_note(&run->rule, r, &run->input, &model);
     model_free(&model);
-    input_free(&input);
-    messages_free(&messages);
+    messages_free(&run->messages);
+    return code;
+}
+
+static int run_frames(struct run *run, const struct request *r)
+{
+    int code = EXIT_FINE;
+    struct error err;
+    for (uint32_t i = 0; code == EXIT_FINE && i < (r->frames ? r->frames : 1); i++) {
+        struct request frame;
+        animation_frame(&frame, r, i);
+        code = run_frame(run, &frame, i);
+        animation_frame_free(&frame);
+    }
+    if (code == EXIT_FINE && r->rule && !rule_save(&run->rule, r->rule, &err))
+        code = command_fail(&err, EXIT_OUTPUT);
     return code;
 }
 
 int command_run(const struct request *r)
 {
-    int code = EXIT_FINE;
-    struct error err;
-    struct rule rule = {0};
-    struct solid_store *store = solid_store_new(); // frames have much in common
-    for (uint32_t i = 0; code == EXIT_FINE && i < (r->frames ? r->frames : 1); i++) {
-        struct request frame;
-        animation_frame(&frame, r, i);
-        code = run_frame(&frame, store, &rule);
-        animation_frame_free(&frame);
-    }
-    if (code == EXIT_FINE && r->rule && !rule_save(&rule, r->rule, &err))
-        code = command_fail(&err, EXIT_OUTPUT);
-    rule_free(&rule);
-    solid_store_delete(store);
+    int code = EXIT_INPUT;
+    struct run run = {.store = solid_store_new(), .began = clock_seconds()};
+    if (input_open(&run.input, r, &run.messages))
+        code = run_frames(&run, r);
+    else
+        print_messages(r, &run.messages);
+    input_free(&run.input);
+    solid_store_delete(run.store);
+    rule_free(&run.rule);
+    messages_free(&run.messages);
     return code;
 }

@@ -1,7 +1,13 @@
 // input.c - the tree of the input file, read from a .csg or exported by openscad from a .scad.
 #include "command/input.h"
 
+#include "base/mem.h"
+
+#include <errno.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static void print_log(const char *log, bool quiet)
 {
@@ -14,7 +20,8 @@ static void print_log(const char *log, bool quiet)
 }
 
 // What of the options openscad has to know.
-static void set_arguments(struct scad_options *o, const char **arguments, const struct request *r)
+static void set_arguments(struct scad_options *o, const char **arguments, const struct request *r,
+                          bool asks_view)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < r->definitions.count; i++) {
@@ -28,24 +35,43 @@ static void set_arguments(struct scad_options *o, const char **arguments, const 
             arguments[n++] = more[i][0];
             arguments[n++] = more[i][1];
         }
-    if (r->time[0]) {
+    if (asks_view) {
         arguments[n++] = "-D";
-        arguments[n++] = r->time;
+        arguments[n++] = SCAD_VIEW_DEFINITION;
     }
     if (r->mode == MODEL_RENDER)
         arguments[n++] = "--render";
-    *o = (struct scad_options){r->openscad, arguments, n};
+    *o = (struct scad_options){r->openscad, arguments, n, r->frames};
 }
 
-static bool export_scad(struct scad_result *out, const struct request *r, struct error *err)
+static bool export_scad(struct input *out, const struct request *r, struct error *err)
 {
     const char *arguments[2 * OPTION_LIST_MOST + 16];
     struct scad_options options;
-    set_arguments(&options, arguments, r);
-    if (!scad_export(r->input, &options, out, err))
+    struct stat st;
+    if (stat(r->input, &st) != 0 || access(r->input, R_OK) != 0) {
+        error_set(err, "%s: %s", r->input, strerror(errno));
         return false;
-    print_log(out->log, r->quiet);
-    return !r->hard_warnings || !scad_warning(out, err);
+    }
+    if (S_ISDIR(st.st_mode)) {
+        error_set(err, "%s: is a folder, not a file", r->input);
+        return false;
+    }
+    bool asks = !r->camera_given && scad_view_is_named(r);
+    set_arguments(&options, arguments, r, asks);
+    if (!scad_export(r->input, &options, &out->scad, err))
+        return false;
+    if (!asks && !r->camera_given && scad_view_was_set(&out->scad)) { // by a file that it includes
+        scad_result_free(&out->scad);
+        set_arguments(&options, arguments, r, true);
+        if (!scad_export(r->input, &options, &out->scad, err))
+            return false;
+    }
+    uint32_t frames = r->frames ? r->frames : 1;
+    out->views = mem_zalloc(frames * sizeof *out->views);
+    scad_view_take(out->views, frames, r, &out->scad);
+    print_log(out->scad.log, r->quiet);
+    return !r->hard_warnings || !scad_warning(&out->scad, err);
 }
 
 static void note_useless(const struct request *r, struct messages *messages)
@@ -59,22 +85,35 @@ static void note_useless(const struct request *r, struct messages *messages)
                      "-p and -P do nothing: only a .scad file has parameters");
 }
 
-bool input_read(struct input *out, const struct request *r, struct messages *messages)
+bool input_open(struct input *out, const struct request *r, struct messages *messages)
 {
     struct error err;
     *out = (struct input){0};
-    if (!r->is_scad) {
+    if (!r->is_scad)
         note_useless(r, messages);
-        return csg_parse_file(&out->tree, r->input, messages);
+    else if (!export_scad(out, r, &err)) {
+        messages_add(messages, MESSAGE_ERROR, (struct place){0}, "%s", err.text);
+        return false;
     }
-    if (export_scad(&out->scad, r, &err))
-        return csg_parse(&out->tree, out->scad.name, out->scad.text, out->scad.size, messages);
-    messages_add(messages, MESSAGE_ERROR, (struct place){0}, "%s", err.text);
-    return false;
+    return true;
+}
+
+bool input_read(struct input *in, const struct request *r, uint32_t frame,
+                struct messages *messages)
+{
+    csg_free(&in->tree);
+    if (!r->is_scad)
+        return csg_parse_file(&in->tree, r->input, messages);
+    const struct scad_result *s = &in->scad;
+    return r->frames ? csg_parse(&in->tree, s->name, s->frames[frame].text, s->frames[frame].size,
+                                 messages)
+                     : csg_parse(&in->tree, s->name, s->text, s->size, messages);
 }
 
 void input_free(struct input *in)
 {
     csg_free(&in->tree);
     scad_result_free(&in->scad);
+    free(in->views);
+    in->views = NULL;
 }

@@ -105,7 +105,7 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
         {"import-dir", 0, OPTION_LIST, "DIR",
          "look there for imported files that are not beside FILE;\nmay be given several times",
          &out->import_folders, 0, 0},
-        {"hardwarnings", 0, OPTION_FLAG, NULL, "make no picture when there is a warning",
+        {"hardwarnings", 0, OPTION_FLAG, NULL, "write nothing when there is a warning",
          &out->hard_warnings, 0, 0},
         {"quiet", 'q', OPTION_FLAG, NULL, "say nothing but errors", &out->quiet, 0, 0},
         {"summary", 0, OPTION_OPTIONAL, SUMMARY_NAMES,

@@ -2,11 +2,10 @@
 #include "command/request.h"
 
 #include "base/file.h"
+#include "command/parameters.h"
 
-#include <errno.h>
 #include <string.h>
 #include <strings.h>
-#include <unistd.h>
 
 static bool set_input(struct request *out, const struct given *given, struct error *err)
 {
@@ -46,11 +45,8 @@ static bool set_openscad(struct request *out, const struct given *given, struct 
                   given->parameter_set ? given->parameter_set : given->parameter_file);
         return false;
     }
-    if (given->parameter_file && access(given->parameter_file, R_OK) != 0) {
-        error_set(err, "-p: %s: %s", given->parameter_file, strerror(errno));
-        return false;
-    }
-    return true;
+    return !given->parameter_file ||
+           parameters_check(given->parameter_file, given->parameter_set, err);
 }
 
 static bool is_map(enum output_kind kind)
@@ -174,6 +170,8 @@ static bool set_size(struct request *out, const struct given *given, struct erro
 static bool set_camera(struct request *out, const struct given *given, struct error *err)
 {
     out->camera = CAMERA_DEFAULTS;
+    out->camera_given = given->camera;
+    out->framing_given = given->viewall || given->autocenter;
     out->viewall = given->viewall || !given->camera;
     out->autocenter = given->autocenter || !given->camera;
     return (!given->camera || camera_parse(&out->camera, given->camera, err)) &&

@@ -30,6 +30,7 @@ struct request {       // borrows from the command line
     int width, height;
     struct camera camera;
     bool viewall, autocenter;
+    bool camera_given, framing_given; // the camera, or one of these two
     struct view_options view;
     struct style style;
     const struct scheme *scheme; // of OpenSCAD's, or own_scheme
@@ -46,7 +47,6 @@ struct request {       // borrows from the command line
     double density;           // g/cm^3; 0: not given
     const char *rule;         // for make; NULL: none
     uint32_t frames;          // 0: no animation
-    char time[32];            // "$t=0.5" of a frame, or ""
 };
 
 bool request_make(struct request *out, const struct given *given, struct error *err);

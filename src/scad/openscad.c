@@ -18,6 +18,7 @@ struct scad_job {
     uv_process_t process;
     uv_pipe_t messages;
     char *path, *program, *folder, *text_path, *rule_path;
+    uint32_t frames;
     scad_done *done; // NULL once cancelled
     void *context;
     struct scad_log log;
@@ -32,16 +33,32 @@ void scad_result_free(struct scad_result *r)
 {
     for (uint32_t i = 0; i < r->file_count; i++)
         free(r->files[i]);
+    for (uint32_t i = 0; i < r->frame_count; i++)
+        free(r->frames[i].text);
     free(r->files);
+    free(r->frames);
     free(r->text);
     free(r->name);
     free(r->log);
     *r = (struct scad_result){0};
 }
 
+// As openscad names it. The caller frees it.
+static char *frame_path(const struct scad_job *job, uint32_t frame)
+{
+    char name[32];
+    snprintf(name, sizeof name, "export%05u.csg", frame);
+    return file_join(job->folder, name);
+}
+
 static void job_delete(struct scad_job *job)
 {
     if (job->folder) {
+        for (uint32_t i = 0; i < job->frames; i++) {
+            char *path = frame_path(job, i);
+            unlink(path);
+            free(path);
+        }
         unlink(job->text_path);
         unlink(job->rule_path);
         rmdir(job->folder);
@@ -74,6 +91,36 @@ static char *result_name(const char *path)
 
 // openscad ends with 0 and an empty tree after a failed assertion; an empty tree without an error
 // is an empty design.
+static bool take_text(struct scad_job *job, const char *path, const struct scad_result *said,
+                      struct scad_text *out, struct error *err)
+{
+    if (!file_read(path, TEXT_LIMIT, &out->text, &out->size, NULL)) {
+        error_set(err, "%s: %s ended well but wrote no file", job->path, job->program);
+        return false;
+    }
+    if (is_blank(out->text, out->size) && scad_log_has_error(said->log)) {
+        scad_error(said, err);
+        free(out->text);
+        return false;
+    }
+    return true;
+}
+
+static bool take_frames(struct scad_job *job, struct scad_result *out, struct error *err)
+{
+    bool ok = true;
+    out->frames = mem_zalloc(job->frames * sizeof *out->frames);
+    for (uint32_t i = 0; i < job->frames && ok; i++) {
+        char *path = frame_path(job, i);
+        ok = take_text(job, path, out, &out->frames[i], err);
+        out->frame_count += ok;
+        free(path);
+    }
+    while (!ok && out->frame_count)
+        free(out->frames[--out->frame_count].text);
+    return ok;
+}
+
 static bool take_result(struct scad_job *job, struct scad_result *out, struct error *err)
 {
     out->name = result_name(job->path);
@@ -93,16 +140,13 @@ static bool take_result(struct scad_job *job, struct scad_result *out, struct er
         scad_error(out, err);
         return false;
     }
-    if (!file_read(job->text_path, TEXT_LIMIT, &out->text, &out->size, NULL)) {
-        error_set(err, "%s: %s ended well but wrote no file", job->path, job->program);
+    if (job->frames)
+        return take_frames(job, out, err);
+    struct scad_text text;
+    if (!take_text(job, job->text_path, out, &text, err))
         return false;
-    }
-    if (is_blank(out->text, out->size) && scad_log_has_error(out->log)) {
-        scad_error(out, err);
-        free(out->text);
-        out->text = NULL;
-        return false;
-    }
+    out->text = text.text;
+    out->size = text.size;
     return true;
 }
 
@@ -165,8 +209,14 @@ static int spawn(struct scad_job *job, uv_loop_t *loop, const struct scad_option
 {
     char *const export[] = {job->program, "-o", job->text_path, "-d", job->rule_path};
     size_t count = array_count(export);
-    char **arguments = mem_zalloc((count + o->argument_count + 2) * sizeof *arguments);
+    char frames[16];
+    char **arguments = mem_zalloc((count + o->argument_count + 4) * sizeof *arguments);
     memcpy(arguments, export, sizeof export);
+    if (o->frames) {
+        snprintf(frames, sizeof frames, "%u", o->frames);
+        arguments[count++] = "--animate";
+        arguments[count++] = frames;
+    }
     for (uint32_t i = 0; i < o->argument_count; i++)
         arguments[count++] = (char *)(uintptr_t)o->arguments[i]; // only read, as execvp does
     arguments[count] = job->path;
@@ -197,6 +247,7 @@ struct scad_job *scad_start(struct uv_loop_s *loop, const char *path,
     job->path = path[0] == '-' ? mem_alloc(strlen(path) + 3) : mem_strdup(path);
     if (path[0] == '-')
         sprintf(job->path, "./%s", path);
+    job->frames = options->frames;
     job->done = done;
     job->context = context;
     job->process.data = job->messages.data = job;

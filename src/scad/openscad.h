@@ -6,9 +6,16 @@
 
 struct uv_loop_s;
 
-struct scad_result { // {0} is a valid empty result
-    char *text; // the .csg, followed by two zero bytes that are not counted; NULL after a failure
+struct scad_text {
+    char *text; // a .csg, followed by two zero bytes that are not counted
     size_t size;
+};
+
+struct scad_result { // {0} is a valid empty result
+    char *text;      // as in scad_text; NULL after a failure and of animations
+    size_t size;
+    struct scad_text *frames; // of animations
+    uint32_t frame_count;     // 0 after a failure
     char *name;   // of the text in messages; imports in the text are relative to its folder
     char **files; // what the text depends on, the .scad itself first; missing files as well
     uint32_t file_count;
@@ -21,6 +28,7 @@ struct scad_options {             // {0}: all defaults. Borrowed while the expor
     const char *program;          // NULL: $OPENSCAD, or else "openscad" on the PATH
     const char *const *arguments; // for the program, beside those that make it export
     uint32_t argument_count;
+    uint32_t frames; // of an animation; 0: none
 };
 
 // Exports and waits for the end. SIGINT, SIGTERM and SIGHUP end openscad first, then take their

@@ -123,6 +123,7 @@ static void says_what_is_wrong(void **state)
         {"--colourscheme=x", "unknown option --colourscheme; did you mean --colorscheme?"},
         {"--thread 3", "unknown option --thread; did you mean --threads?"},
         {"--color red", "unknown option --color; did you mean --colorscheme?"},
+        {"--scal 1", "unknown option --scal; did you mean --scale?"},
         {"--sh", "unknown option --sh; --help lists them"},
         {"--halp", "unknown option --halp; did you mean --help?"},
         {"--quite-another-thing", "unknown option --quite-another-thing; --help lists them"},

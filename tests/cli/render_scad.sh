@@ -18,7 +18,14 @@ out=$2
 shift 4
 printf '%s\n' "$@" >arguments
 cat said >&2
-if [ -e model ]; then cp model "$out"; else echo 'cube(size = [1, 1, 1]);' >"$out"; fi
+[ -e model ] && text=$(cat model) || text='cube(size = [1, 1, 1]);'
+if [ "$1" = --animate ]; then
+    for i in $(seq "$2"); do
+        echo "$text" >"${out%.csg}$(printf %05d $((i - 1))).csg"
+    done
+else
+    echo "$text" >"$out"
+fi
 END
 chmod +x fake
 : >said
@@ -37,7 +44,7 @@ passes() {
 
 passes 'a.scad|'
 passes '-D|x=1|-D|s="a b"|a.scad|' -D x=1 '-Ds="a b"'
-echo '{}' >sets.json
+echo '{"parameterSets": {"big one": {"x": "1"}, "b": {}}, "fileFormatVersion": "1"}' >sets.json
 passes '-p|sets.json|-P|big one|a.scad|' -p sets.json -P 'big one'
 passes '--render|a.scad|' --render
 passes '--render|a.scad|' --render=cgal
@@ -54,13 +61,50 @@ echo 'cube(size = [1, 1, 1]);' >model
 mkdir a.b
 "$render" --openscad ./fake --animate 4 -D a=1 -d x.d --summary camera --summary-file 'x y.json' -o x.png \
     -o a.b/x a.scad 2>stderr || fault "animation: $(cat stderr)"
-[ "$(tr '\n' '|' <arguments)" = '-D|a=1|-D|$t=0.75|a.scad|' ] || fault "animation: $(cat arguments)"
+[ "$(tr '\n' '|' <arguments)" = '--animate|4|-D|a=1|a.scad|' ] || fault "animation: $(cat arguments)"
 for i in 0 1 2 3; do
     [ -s x0000$i.png ] && [ -s a.b/x0000$i ] && [ -s "x y0000$i.json" ] || fault "animation: frame $i"
 done
 [ -e x.png ] || [ -e x00004.png ] && fault 'animation: too many frames'
 head -n 1 x.d | grep -q '^x00000.png a.b/x00000 x00001.png .* a.b/x00003: ' || fault "rule: $(cat x.d)"
 rm -rf x0* a.b x.d 'x y'*
+
+# openscad itself turns the camera of an animation.
+if OPENSCAD= command -v openscad >/dev/null; then
+    echo '$vpr = [60, 0, 90 * $t]; $vpd = 20; cube([1, 2, 3]);' >turn.scad
+    OPENSCAD= "$render" --animate 2 --summary camera -o turn.png turn.scad 2>/dev/null >cameras
+    [ "$(sed -n 's/^Camera:.*=//p' cameras | tr '\n' ' ')" = '0,0,0,60,0,0,20 0,0,0,60,0,45,20 ' ] ||
+        fault "animation: $(cat cameras)"
+    cmp -s turn00000.png turn00001.png && fault 'animation: does not turn'
+fi
+
+# The camera of the file: any of four variables moves it from where pictures without one have it.
+camera() {
+    expected=$1 view=$2
+    shift 2
+    printf '%s\n' "ECHO: \"hcsg_view\", $view" 'ECHO: 1' \
+        'WARNING: Viewall and autocenter disabled in favor of $vp*' >said
+    got=$("$render" --openscad ./fake --summary camera "$@" v.scad 2>stderr | sed -n 's/.*--camera=//p')
+    [ "$got" = "$expected" ] || fault "camera: $got"
+}
+echo '$vpr=[0,0,90];' >v.scad
+camera 0,0,0,0,0,90,140 '[0, 0, 0], [0, 0, 90], 500, 22.5'
+[ "$(cat stderr)" = 'ECHO: 1' ] || fault "camera: $(cat stderr)"
+tr '\n' '|' <arguments | grep -qF -- '-D|hcsg_view=echo("hcsg_view",$vpt,$vpr,$vpd,$vpf)|v.scad|' ||
+    fault "camera: $(cat arguments)"
+camera 0,0,0,0,0,90,140 '[0, 0, 0], [0, 0, 90], 500, 22.5' --viewall --hardwarnings
+grep -q '^WARNING: Viewall' stderr || fault 'camera: no warning'
+camera 1,2,3,0,0,0,4 '[0, 0, 0], [0, 0, 90], 500, 22.5' --camera=1,2,3,0,0,0,4
+echo 'module a(b = $vpr == 1) { } $vpr = [0, 0, 0]; $vpd=500;' >v.scad
+camera 0,0,0,0,0,0,500 '[0, 0, 0], [0, 0, 0], 500, 22.5'
+echo '$vpt = [1, 2, -3.5];' >v.scad
+camera 1,2,-3.5,55,0,25,140 '[1, 2, -3.5], [0, 0, 0], 500, 22.5'
+: >said
+echo 'cube($vpd == 1 ? 2 : 1);' >v.scad
+"$render" --openscad ./fake -o out.png v.scad 2>/dev/null
+[ "$(cat arguments)" = v.scad ] || fault "camera: asked for without need"
+rm -f out.png
+: >said
 
 # Messages: all of them, none but errors, or the first warning as the reason to stop.
 printf 'ECHO: 5\nWARNING: odd thing in file a.scad, line 7\n' >said
@@ -85,13 +129,21 @@ expect() {
 for definition in x =1 x= ''; do
     expect "-D: expected VARIABLE=VALUE, got '$definition'" -D "$definition" a.scad
 done
-expect '-p: none.json: No such file' -p none.json -P set a.scad
+expect 'none.json: No such file' -p none.json -P set a.scad
+expect "sets.json: no parameter set 'big'; there are: big one, b" -p sets.json -P big a.scad
+for text in '' '[]' '{"parameterSets": 3}' '{"parameterSets": {"a": }'; do
+    echo "$text" >broken.json
+    expect 'broken.json: is no JSON file of parameter sets' -p broken.json -P a a.scad
+done
 expect '-P set: expected the file' -P set a.scad
 expect '-p sets.json: expected the name' -p sets.json a.scad
 expect "--render: expected nothing, cgal or force, got 'x'" --render=x a.scad
 expect "--preview: expected nothing or throwntogether, got 'x'" --preview=x a.scad
 expect '--animate: standard output' --animate=2 -o - a.scad
 expect '--animate: expected 1 to 99999' --animate=0 a.scad
+mkdir folder.scad
+expect 'folder.scad: is a folder' folder.scad
+expect 'gone.scad: No such file' gone.scad
 expect '/none: no such file' a.scad
 expect './gone: no such file' --openscad=./gone a.scad
 

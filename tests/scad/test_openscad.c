@@ -214,6 +214,26 @@ static void arguments_are_handed_on(void **state)
     scad_result_free(&r);
 }
 
+static void animations_have_a_text_for_each_frame(void **state)
+{
+    (void)state;
+    struct scad_result r = {0};
+    struct scad_options options = {
+        .program = play("for i in 0 1 2; do echo \"$5 $6 $i\" > ${2%.csg}0000$i.csg; done"),
+        .frames = 3};
+    assert_true(scad_export("p.scad", &options, &r, NULL));
+    assert_null(r.text);
+    assert_int_equal(r.frame_count, 3);
+    assert_string_equal(r.frames[2].text, "--animate 3 2\n");
+    scad_result_free(&r);
+    struct error err;
+    options.frames = 4;
+    assert_false(scad_export("p.scad", &options, &r, &err));
+    assert_int_equal(r.frame_count, 0);
+    assert_non_null(strstr(err.text, "wrote no file"));
+    scad_result_free(&r);
+}
+
 static void a_dash_in_front_is_no_option(void **state)
 {
     (void)state;
@@ -347,6 +367,7 @@ int main(void)
         TEST(missing_program_is_named),
         TEST(program_comes_from_the_environment),
         TEST(arguments_are_handed_on),
+        TEST(animations_have_a_text_for_each_frame),
         TEST(a_dash_in_front_is_no_option),
         TEST(cancelling_kills_the_whole_family),
         TEST(includes_are_known_without_a_rule),
