@@ -86,7 +86,7 @@ class common_planes
         std::vector<uint32_t> common;
         std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
         if (common.size() < 2)
-            return false;
+            return of_one_operand(s, t) && (lies_beyond(s, t, common) || lies_beyond(t, s, common));
         struct vec3 n = normal(s), along = between(common[0], common[1]);
         double side[2];
         for (int i = 0; i < 2; i++)
@@ -94,6 +94,31 @@ class common_planes
                 if (c != common[0] && c != common[1])
                     side[i] = vec3_dot(n, vec3_cross(along, between(common[0], c)));
         return (side[0] < 0) != (side[1] < 0);
+    }
+
+    bool of_one_operand(uint32_t s, uint32_t t) const
+    {
+        const winding &a = triangles[s].weight, &b = triangles[t].weight;
+        return (a.of[0] == 0 && b.of[0] == 0) || (a.of[1] == 0 && b.of[1] == 0);
+    }
+    // Whether the line of an edge of s has all of t clearly on its other side, but for a corner
+    // that both share.
+    bool lies_beyond(uint32_t s, uint32_t t, const std::vector<uint32_t> &common) const
+    {
+        const auto &a = triangles[s].corner, &b = triangles[t].corner;
+        struct vec3 n = normal(s);
+        for (unsigned i = 0; i < 3; i++) {
+            uint32_t from = a[i], to = a[(i + 1) % 3];
+            if (!common.empty() && common[0] == a[(i + 2) % 3])
+                continue;
+            struct vec3 inward = vec3_normalized(vec3_cross(n, between(from, to)));
+            if (std::all_of(b.begin(), b.end(), [&](uint32_t c) {
+                    return (!common.empty() && c == common[0]) ||
+                           vec3_dot(inward, between(from, c)) < -SLIM * tolerance;
+                }))
+                return true;
+        }
+        return false;
     }
 
     // The largest triangle says where the plane is.
