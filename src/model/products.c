@@ -91,14 +91,21 @@ static void note_product(struct expansion *e, const struct state *s)
     }
 }
 
-// Multiplying out makes other operations of this one, which do not have its mark.
-static bool is_rewritten(const struct scene *s, const struct term *t)
+// Multiplying out makes other operations of one whose operands it takes apart, and of these. What
+// it makes does not have their marks.
+static bool takes_apart(const struct term *t, const struct term *operand, bool right)
 {
-    if (is_part(t) || t->op == TERM_UNION)
+    if (is_part(operand) || t->op == TERM_UNION)
         return false;
-    const struct term *left = &s->terms[t->left], *right = &s->terms[t->right];
-    return !is_part(right) ||
-           (!is_part(left) && left->op != TERM_INTERSECTION && left->op != t->op);
+    return right || (operand->op != TERM_INTERSECTION && operand->op != t->op);
+}
+
+static bool is_marked(const struct scene *s, const struct term *t)
+{
+    if (is_part(t))
+        return t->highlighted;
+    return t->highlighted && !takes_apart(t, &s->terms[t->left], false) &&
+           !takes_apart(t, &s->terms[t->right], true);
 }
 
 // The cell of an operand of the term in a cell.
@@ -108,7 +115,7 @@ static struct cell operand(const struct expansion *e, const struct cell *of, boo
     struct cell c = {right ? t->right : t->left, NO_CELL, of->subtract, of->highlighted};
     c.subtract ^= right && t->op == TERM_DIFFERENCE;
     const struct term *own = &e->s->terms[c.term];
-    c.highlighted |= own->highlighted && !is_rewritten(e->s, own);
+    c.highlighted |= is_marked(e->s, own) && !takes_apart(t, own, right);
     return c;
 }
 
@@ -148,7 +155,7 @@ static void step(struct expansion *e, struct state s)
 static struct cell root_cell(const struct expansion *e, uint32_t term)
 {
     const struct term *t = &e->s->terms[term];
-    return (struct cell){term, NO_CELL, false, t->highlighted && !is_rewritten(e->s, t)};
+    return (struct cell){term, NO_CELL, false, is_marked(e->s, t)};
 }
 
 // False when there are too many steps.

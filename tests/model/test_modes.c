@@ -94,6 +94,9 @@ static void marks_stay_with_shapes(void **state)
     // Operations that are multiplied out lose theirs.
     expect_leaves("#difference() { cube(10); union() { " FAR(1) "cube(2); " FAR(7) "cube(2); } }",
                   0, "+0 -1 -7");
+    expect_leaves(
+        "difference() { cube(10); #difference() { " FAR(1) "cube(9);" FAR(2) "cube(3); } }", 0,
+        "+0 -1 +2");
     expect_leaves("%difference() { cube(10); " FAR(1) "cube(2); }", 1, "+0 -1");
 }
 

@@ -87,7 +87,7 @@ static void render(struct cpu_device *d, const struct body *body, const struct r
     uint32_t workers = parallel_workers(settings->threads);
 
     frame_init(&f, body, rays, settings);
-    f.clip = !job->image || settings->walk != WALK_AUTO;
+    f.clip = !body->borders && (!job->image || settings->walk != WALK_AUTO);
     attach_trees(d, &f);
     job->frame = &f;
     job->memory = (settings->memory ? settings->memory : MEMORY_DEFAULT) / workers;

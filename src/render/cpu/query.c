@@ -70,6 +70,18 @@ static bool covers(const struct query *q, int ray, int32_t other, float other_ke
            tile_coplanar(q->t, ray, face_of(q, other, other_key), face_of(q, owner, key));
 }
 
+// Of geometry, which of two faces at one place shows depends on all that meet there: such rays are
+// walked in the end.
+static void note_mixed(struct query *q, int ray, int32_t a, int32_t b)
+{
+    const struct body *body = q->t->frame->body;
+    if (!body->borders || a < 0 || b < 0)
+        return;
+    const struct leaf *one = &body->leaves[q->t->leaves[a >> 1].leaf];
+    if (one->subtracted != body->leaves[q->t->leaves[b >> 1].leaf].subtracted)
+        q->mixed |= (uint64_t)1 << ray;
+}
+
 static void note_sliver(struct query *q, int ray, float end)
 {
     if (!q->slivers)
@@ -92,6 +104,8 @@ static void ray_in(struct query *q, int ray, float band, int32_t id, float *key,
                 note_sliver(q, ray, x);
             continue;
         }
+        if (fabsf(e - c) <= band)
+            note_mixed(q, ray, id, *owner);
         if (e > c) {
             if (!(e - c <= band && *owner >= 0 && covers(q, ray, *owner, c, id, e) &&
                   thin(q, ray, c, *owner, e, id, band)))
@@ -111,6 +125,8 @@ static void ray_out(struct query *q, int ray, float band, int32_t id, float *key
 {
     for (uint32_t i = 0; i < q->lane_count; i++) {
         float e = q->lane[i].enter, x = q->lane[i].leave, c = *key;
+        if (fabsf(x - c) <= band)
+            note_mixed(q, ray, id | 1, *owner);
         if (x > c && (e <= c || thin(q, ray, c, *owner, e, id, band))) {
             bool same = x - c <= band && *owner >= 0 && covers(q, ray, *owner, c, id | 1, x) &&
                         thin(q, ray, c, *owner, x, id | 1, band);
@@ -255,6 +271,7 @@ static void nearer(struct query *q, struct rays_at *s, const struct rays_at *oth
         for (; tie; tie &= tie - 1) {
             int x = __builtin_ctz((unsigned)tie);
             int32_t front = owner[x], back = b_first[x] ? s->owner[y][x] : other->owner[y][x];
+            note_mixed(q, y * BLOCK + x, front, back);
             if (covers(q, y * BLOCK + x, back, fmaxf(a[x], b[x]), front, fminf(a[x], b[x])))
                 owner[x] = back;
         }
@@ -462,6 +479,22 @@ static void walk_slivers(struct query *q, struct rays_at *out)
     }
 }
 
+static void walk_mixed(struct query *q, struct rays_at *out)
+{
+    struct tile *t = q->t;
+    for (uint64_t rays = q->mixed; rays; rays &= rays - 1) {
+        int i = __builtin_ctzll(rays), y = i / BLOCK, x = i % BLOCK;
+        float key = out->key[y][x];
+        struct rays_at walked;
+        if (key >= NEVER || out->owner[y][x] < 0)
+            continue;
+        t->limit = key + t->frame->epsilon;
+        walk_one(t, i, &walked);
+        if (walked.owner[y][x] >= 0 && fabsf(walked.key[y][x] - key) <= t->frame->epsilon)
+            out->owner[y][x] = walked.owner[y][x];
+    }
+}
+
 void query_block(struct query *q, struct rays_at *out)
 {
     struct tile *t = q->t;
@@ -470,6 +503,7 @@ void query_block(struct query *q, struct rays_at *out)
     q->block++;
     q->found_count = 0;
     q->slivers = false;
+    q->mixed = 0;
     for (int y = 0; y < BLOCK; y++) {
         out->key[y] = v8_set(NEVER);
         out->owner[y] = v8_seti(-1);
@@ -501,4 +535,6 @@ void query_block(struct query *q, struct rays_at *out)
     }
     if (q->slivers)
         walk_slivers(q, out);
+    if (q->mixed)
+        walk_mixed(q, out);
 }

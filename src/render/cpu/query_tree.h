@@ -56,6 +56,7 @@ struct query {
     uint32_t copy_capacity;
     bool slivers;               // some ray of the block met a leaf too thin to exist
     float sliver[BLOCK_PIXELS]; // and the first of these ended here
+    uint64_t mixed;             // rays that met a cut face and another one at one place, a bit each
     v8f limit[BLOCK];           // nothing beyond these keys matters
 };
 

@@ -270,6 +270,28 @@ static bool solid_if(struct ray_walk *r, uint32_t from, uint32_t to, uint32_t c,
     return solid;
 }
 
+// Is the place of a cluster solid when the border of every leaf belongs to it?
+static bool solid_closed(struct ray_walk *r, uint32_t from, uint32_t to)
+{
+    struct walk_lists *w = r->t->lists;
+    uint32_t n = from;
+    array_reserve(&w->rest, &w->rest_capacity, to);
+    memcpy(w->rest, r->items, from * sizeof *w->rest);
+    for (uint32_t i = from; i < to; i++) {
+        if (r->items[i] & 1)
+            step(r, r->items[i], true);
+        else
+            w->rest[n++] = r->items[i];
+    }
+    w->replayed = NULL; // the room of `rest` held other crossings before
+    bool solid = is_solid(r, w->rest, n);
+    w->replayed = NULL;
+    for (uint32_t i = from; i < to; i++)
+        if (r->items[i] & 1)
+            step(r, r->items[i], false);
+    return solid;
+}
+
 // Does the leaf of crossing c also cross the other way in the cluster? It is too thin to show.
 static bool is_paired(const struct ray_walk *r, uint32_t from, uint32_t to, uint32_t c)
 {
@@ -353,9 +375,20 @@ static uint32_t leaf_of(const struct ray_walk *r, crossing c)
     return r->t->leaves[(uint32_t)c >> 1].leaf;
 }
 
+// Whether crossing i shows rather than crossing `best`, where the place wants leaves of the given
+// kind; 2 for any.
+static bool goes_before(const struct ray_walk *r, crossing i, crossing best, int cut)
+{
+    const struct leaf *leaves = r->t->frame->body->leaves;
+    uint32_t a = leaf_of(r, i), b = leaf_of(r, best);
+    bool wanted = leaves[a].subtracted == cut, has = leaves[b].subtracted == cut;
+    return cut == 2 || wanted == has ? a > b : wanted;
+}
+
 // Of the crossings at one place, the one whose surface shows there: of those in one plane with the
 // one that turns the state, the latest of the file that matters, because the state would be another
-// one without it, or with it alone. A leaf too thin to show gives way to any of these.
+// one without it, or with it alone. A leaf too thin to show gives way to any of these. Of geometry
+// it is a cut face where the place is not solid with all borders.
 static crossing owner_of(struct ray_walk *r, uint32_t from, uint32_t to, bool solid)
 {
     if (to - from == 1)
@@ -367,8 +400,9 @@ static crossing owner_of(struct ray_walk *r, uint32_t from, uint32_t to, bool so
     crossing turn = r->items[turning];
     uint32_t best = turning;
     bool weak = is_paired(r, from, to, turning);
+    int cut = r->t->frame->body->borders ? !solid_closed(r, from, to) : 2;
     for (uint32_t i = from; i < to; i++) {
-        if (i == turning || (!weak && leaf_of(r, r->items[i]) <= leaf_of(r, r->items[best])) ||
+        if (i == turning || (!weak && !goes_before(r, r->items[i], r->items[best], cut)) ||
             r->t->lists->border[i - from] || is_paired(r, from, to, i))
             continue;
         if (crossing_key(r->items[i]) != crossing_key(turn) &&
