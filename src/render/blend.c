@@ -149,7 +149,8 @@ void blend_both_sides(void *context, uint32_t worker, const struct span_block *b
                 const struct span *s = &block->spans[k];
                 if (s->leave_leaf != SURFACE_NONE)
                     sides[count++] = (struct side){true, s->leave_leaf, s->leave_face, s->leave};
-                sides[count++] = (struct side){false, s->enter_leaf, s->enter_face, s->enter};
+                if (s->enter_face != SURFACE_CAP || !d->layer->in_turn)
+                    sides[count++] = (struct side){false, s->enter_leaf, s->enter_face, s->enter};
             }
             if (count > 2 || d->layer->in_turn)
                 qsort(sides, count, sizeof *sides, d->layer->in_turn ? by_face : by_turn);

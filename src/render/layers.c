@@ -13,7 +13,9 @@
 enum { PRODUCT_LEAVES = 100000 };
 
 struct builder {
-    bool thrown; // together
+    bool thrown;    // together
+    struct box eye; // thrown together: what meets it is drawn with its back faces
+    bool around;    // the layer under construction does
     const struct body *body;
     const struct expr *e; // the body's
     const struct material *materials;
@@ -107,7 +109,8 @@ static void end_layer(struct builder *b, bool see_through)
         .body = {.kind = b->body->kind, .leaves = b->leaves, .leaf_count = b->leaf_count},
         .leaf_of = b->leaf_of,
         .see_through = see_through,
-        .both_sides = see_through && (b->thrown ? b->body->kind != BODY_MAIN : b->leaf_count == 1),
+        .both_sides = see_through &&
+                      (b->thrown ? b->around || b->body->kind != BODY_MAIN : b->leaf_count == 1),
         .in_turn = b->thrown};
     expr_build(&layer->body.expr, b->tokens, b->token_count, b->leaf_count);
     b->leaves = NULL;
@@ -153,6 +156,16 @@ static bool subtree_is_opaque(const struct builder *b, uint32_t node)
     return true;
 }
 
+static bool meets_eye(const struct builder *b, uint32_t node)
+{
+    const struct expr *e = b->e;
+    for (uint32_t n = expr_first(e, node); n <= node; n++)
+        if (e->nodes[n].op == EXPR_LEAF &&
+            !box_is_empty(box_intersection(b->body->leaves[e->nodes[n].leaf].box, b->eye)))
+            return true;
+    return false;
+}
+
 static void find_boxes(struct builder *b)
 {
     b->boxes = mem_alloc((b->body->leaf_count + 1) * sizeof *b->boxes);
@@ -167,12 +180,14 @@ static void find_boxes(struct builder *b)
     }
 }
 
-static void body_layers_init(struct body_layers *out, const struct shader *shader, uint32_t number)
+static void body_layers_init(struct body_layers *out, const struct shader *shader, uint32_t number,
+                             struct box eye)
 {
     const struct body *body = &shader->model->bodies[number];
     struct builder b = {.body = body,
                         .materials = shader->bodies[number].materials,
                         .thrown = shader->model->mode == MODEL_THROWN_TOGETHER,
+                        .eye = eye,
                         .out = out};
     const struct expr *e = b.e = body->whole.node_count ? &body->whole : &body->expr;
     const struct expr_node *root = &e->nodes[e->root];
@@ -180,10 +195,11 @@ static void body_layers_init(struct body_layers *out, const struct shader *shade
     find_boxes(&b);
     for (uint32_t k = 0; k < (several ? root->count : 1); k++) {
         uint32_t part = several ? e->kids[root->first + k] : e->root;
-        if (subtree_is_opaque(&b, part))
-            put_subtree(&b, part);
-        else
+        b.around = meets_eye(&b, part);
+        if (b.around || !subtree_is_opaque(&b, part))
             add_part(&b, part);
+        else
+            put_subtree(&b, part);
     }
     end_layer(&b, false);
     for (uint32_t i = 0; i < out->count; i++) // their places are final: tables borrow from bodies
@@ -309,18 +325,42 @@ static void find_repeats(struct layers *layers, const struct model *m)
     free(t.drawn);
 }
 
-struct layers *layers_new(const struct shader *shader)
+static struct layers *make(const struct shader *shader, struct box eye)
 {
     const struct model *m = shader->model;
     struct layers *out = mem_alloc(sizeof *out);
     *out = (struct layers){.bodies = mem_zalloc((m->body_count + 1) * sizeof *out->bodies),
                            .body_count = m->body_count};
     for (uint32_t i = 0; i < m->body_count; i++)
-        if (!shader->bodies[i].opaque)
-            body_layers_init(&out->bodies[i], shader, i);
+        if (!shader->bodies[i].opaque || (i == 0 && !box_is_empty(eye)))
+            body_layers_init(&out->bodies[i], shader, i, eye);
     if (m->mode != MODEL_THROWN_TOGETHER)
         find_repeats(out, m);
     return out;
+}
+
+struct layers *layers_new(const struct shader *shader)
+{
+    return make(shader, BOX_EMPTY);
+}
+
+struct layers *layers_around(const struct shader *shader, const struct rays *rays)
+{
+    const struct model *m = shader->model;
+    struct box eye = BOX_EMPTY;
+    for (int i = 0; i < 4; i++) {
+        double x = i & 1 ? rays->width - 0.5 : -0.5, y = i & 2 ? rays->height - 0.5 : -0.5;
+        eye = box_of_point(eye, vec3_add(rays_origin(rays, x, y),
+                                         vec3_scale(rays_direction(rays, x, y), rays->near)));
+    }
+    if (m->mode != MODEL_THROWN_TOGETHER || !m->body_count)
+        return NULL;
+    const struct body *body = &m->bodies[0];
+    for (uint32_t i = 0; i < body->leaf_count; i++)
+        if (body->expr.leaf_node[i] != EXPR_NONE &&
+            !box_is_empty(box_intersection(body->leaves[i].box, eye)))
+            return make(shader, eye);
+    return NULL;
 }
 
 void layers_delete(struct layers *l)

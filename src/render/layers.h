@@ -47,4 +47,7 @@ struct layers {
 };
 
 struct layers *layers_new(const struct shader *shader); // borrows the model's solids
-void layers_delete(struct layers *l);                   // accepts NULL
+// Of shapes thrown together, where the near plane may be inside of some: these apart, so that their
+// far sides show. NULL anywhere else.
+struct layers *layers_around(const struct shader *shader, const struct rays *rays);
+void layers_delete(struct layers *l); // accepts NULL

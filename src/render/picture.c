@@ -188,11 +188,12 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
                   const struct rays *rays, const struct render_settings *settings,
                   struct render_stats *stats)
 {
-    const struct layers *layers = shader->layers;
+    struct layers *around = layers_around(shader, rays);
+    const struct layers *layers = around ? around : shader->layers;
     *stats = (struct render_stats){0};
     reserve(p, rays->width, rays->height);
     const struct model *model = shader->model;
-    bool begun = model->body_count && shader->bodies[0].opaque &&
+    bool begun = model->body_count && shader->bodies[0].opaque && !around &&
                  model->bodies[0].kind == BODY_MAIN; // it brings the background
     if (!begun)
         parallel_for(((uint32_t)p->height + ROWS - 1) / ROWS, settings->threads, clear_rows,
@@ -219,7 +220,7 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
         d.twin_of = owned ? layers->bodies[b].twin_of : NULL;
         if (owned && b == 0 && !d.first)
             begin_owners(&d);
-        if (d.shading->opaque)
+        if (d.shading->opaque && !(around && main))
             cpu_first_surface(device, body, rays, settings, d.surface, shade_rect, &d, &one);
         else if (layers)
             draw_layers(device, &d, &layers->bodies[b], rays, settings, stats);
@@ -231,6 +232,7 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
         if (p->overlay && d.first) // the body is opaque and hides afterwards what is behind it
             overlay_draw_among(p->overlay, rays, &canvas);
     }
+    layers_delete(around);
     outlines_draw(&canvas, shader, rays);
     if (p->overlay)
         overlay_draw_over(p->overlay, rays, &canvas);

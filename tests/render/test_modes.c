@@ -94,6 +94,12 @@ static void back_faces_are_magenta(void **state)
            {150, 300, 146, 0, 146}, {400, 300, 169, 0, 169});
     EXPECT(MODEL_THROWN_TOGETHER, "Cornfield", NULL, one_face_turned, {250, 100, 255, 0, 255},
            {150, 300, 143, 123, 25}, {400, 300, 165, 143, 29});
+    // The eye inside of a cube that holds two others.
+    EXPECT(MODEL_THROWN_TOGETHER, "Cornfield", "0,0,0,55,0,25,60",
+           "cube(100, center = true); sphere(10, $fn = 20); color([1,0,0]) " AT(
+               0, 40, 0) "cube([30, 40, 60], center = true);",
+           {50, 50, 146, 0, 146}, {400, 60, 146, 0, 0}, {250, 250, 191, 165, 34},
+           {50, 450, 255, 0, 255}, {480, 480, 146, 0, 0});
     // render() is one shape: the walls of its holes face outward.
     EXPECT(MODEL_THROWN_TOGETHER, "Cornfield", "0,0,0,0,0,0,50",
            "render() difference() { cube(10, center = true); " AT(
