@@ -40,6 +40,7 @@ void build_model(struct model *out, const struct request *r, const struct input 
 {
     struct model_options options = MODEL_DEFAULTS;
     options.mode = r->mode;
+    options.united = r->united;
     options.epsilon = r->epsilon;
     options.import_folders = r->import_folders.items;
     options.import_folder_count = r->import_folders.count;

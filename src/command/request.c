@@ -181,12 +181,13 @@ static bool set_camera(struct request *out, const struct given *given, struct er
 static bool set_mode(struct request *out, const struct given *given, struct error *err)
 {
     for (uint32_t i = 0; i < given->render.count; i++) {
-        const char *how = given->render.items[i]; // all of it is one thing here
+        const char *how = given->render.items[i];
         if (*how && strcmp(how, "cgal") != 0 && strcmp(how, "force") != 0) {
             error_set(err, "--render: expected nothing, cgal or force, got '%s'", how);
             return false;
         }
         out->mode = MODEL_RENDER;
+        out->united = strcmp(how, "cgal") == 0;
     }
     for (uint32_t i = 0; i < given->preview.count; i++) { // both: as in OpenSCAD a preview
         const char *how = given->preview.items[i];

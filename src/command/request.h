@@ -36,6 +36,7 @@ struct request {       // borrows from the command line
     const struct scheme *scheme; // of OpenSCAD's, or own_scheme
     struct scheme own_scheme;    // of a file
     enum model_mode mode;
+    bool united;    // MODEL_RENDER: of struct model_options
     bool sorted;    // see-through surfaces by their depth, not in the order of the file
     double epsilon; // negative: the default for the model
     uint32_t threads;

@@ -92,11 +92,12 @@ static void walk_tree(struct builder *b, struct messages *messages)
 }
 
 // What the geometry of the whole is, told before the bodies take the scene over.
-static void describe(struct model *m, const struct scene *s)
+static void describe(struct model *m, const struct scene *s, bool united)
 {
     const struct term *root = s->root < TERM_EMPTY ? &s->terms[s->root] : NULL;
-    m->single = root && root->op == TERM_LEAF;
-    if (m->single && s->leaves[root->left].flat)
+    bool single = root && root->op == TERM_LEAF;
+    m->single = single && !united;
+    if (single && s->leaves[root->left].flat)
         m->flat = &s->leaves[root->left].solid->outline;
 }
 
@@ -115,7 +116,7 @@ void model_build(struct model *out, const struct csg_tree *tree, struct solid_st
     store_count_from(store);
     walk_tree(&b, messages);
     if (options->mode == MODEL_RENDER)
-        describe(out, &b.scene);
+        describe(out, &b.scene, options->united);
     thicken_sheets(&b.scene, options->epsilon);
 
     // Tables borrow from their bodies, so the array must not move once it is being filled.

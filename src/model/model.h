@@ -55,7 +55,7 @@ struct model_stats {
 
 struct model {
     enum model_mode mode;
-    bool single; // RENDER: the model is one shape, nothing was united, cut or intersected
+    bool single;                // RENDER: nothing was united, cut or intersected
     const struct outline *flat; // RENDER: the shape that the model is; NULL for solids
     struct body *bodies;        // in drawing order: main first, then backgrounds, then highlights
     uint32_t body_count;
@@ -69,6 +69,7 @@ struct model {
 
 struct model_options {
     enum model_mode mode;
+    bool united;     // RENDER: a single shape counts as made of several
     double epsilon;  // filter in mm across the faces; negative: the default for the model's extent
     bool share, roi; // value sharing and regions of interest; true unless the bench compares
     // Where imported files are looked for that are not beside the .csg.

@@ -174,6 +174,27 @@ static void flat_models_are_one_outline(void **state)
     drop(&s);
 }
 
+static void a_single_shape_may_count_as_several(void **state)
+{
+    (void)state;
+    for (int united = 0; united < 2; united++) {
+        struct model_options options = MODEL_DEFAULTS;
+        struct solid_store *store = solid_store_new();
+        struct messages messages = {0};
+        struct csg_tree tree;
+        struct model m;
+        char text[] = "cube(1);\0";
+        assert_true(csg_parse(&tree, "m.csg", text, strlen(text), &messages));
+        options.mode = MODEL_RENDER;
+        options.united = united;
+        model_build(&m, &tree, store, &options, &messages);
+        assert_int_equal(m.single, !united);
+        model_free(&m);
+        csg_free(&tree);
+        solid_store_delete(store);
+    }
+}
+
 // One store serves models of all modes: none takes over what is another's.
 static void modes_share_a_store(void **state)
 {
@@ -212,6 +233,7 @@ int main(void)
         cmocka_unit_test(geometry_has_no_colours_and_marks),
         cmocka_unit_test(the_first_object_decides_the_dimension),
         cmocka_unit_test(flat_models_are_one_outline),
+        cmocka_unit_test(a_single_shape_may_count_as_several),
         cmocka_unit_test(modes_share_a_store),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
