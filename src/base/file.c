@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -95,11 +96,32 @@ static int open_beside(const char *path, char *name, size_t size)
     return fd;
 }
 
+// Where a link leads, also to a file that is not there yet. The caller frees it.
+static char *follow_links(const char *path)
+{
+    enum { LINKS_MOST = 40 };
+    char *real = realpath(path, NULL);
+    if (real)
+        return real;
+    real = mem_strdup(path);
+    for (int i = 0; i < LINKS_MOST; i++) {
+        char link[PATH_MAX];
+        ssize_t n = readlink(real, link, sizeof link - 1);
+        if (n < 0)
+            break;
+        link[n] = 0;
+        char *folder = file_folder(real);
+        free(real);
+        real = file_join(folder, link);
+        free(folder);
+    }
+    return real;
+}
+
 // `old`: the file that is there, NULL without one; its mode stays.
 static bool write_beside(const char *path, const struct stat *old, const void *data, size_t size)
 {
-    char *real = realpath(path, NULL); // a link stays one
-    const char *target = real ? real : path;
+    char *target = follow_links(path); // a link stays one
     size_t room = strlen(target) + 32;
     char *name = mem_alloc(room);
     int fd = open_beside(target, name, room);
@@ -118,7 +140,7 @@ static bool write_beside(const char *path, const struct stat *old, const void *d
     if (fd >= 0 && !ok)
         unlink(name);
     free(name);
-    free(real);
+    free(target);
     errno = saved;
     return ok;
 }
@@ -140,8 +162,11 @@ bool file_write(const char *path, const void *data, size_t size, struct error *e
     struct stat st;
     bool ok, standard = strcmp(path, "-") == 0;
     bool exists = !standard && stat(path, &st) == 0;
+    bool refused = !standard && (exists ? access(path, W_OK) != 0 : errno == ELOOP);
     if (standard)
         ok = write_all(STDOUT_FILENO, data, size);
+    else if (refused)
+        ok = false; // errno says why; renaming would pass over it
     else if (exists && !S_ISREG(st.st_mode))
         ok = write_in_place(path, data, size);
     else

@@ -40,7 +40,7 @@ static void set_arguments(struct scad_options *o, const char **arguments, const 
         arguments[n++] = SCAD_VIEW_DEFINITION;
     }
     if (r->mode == MODEL_RENDER)
-        arguments[n++] = "--render";
+        arguments[n++] = "--render=force"; // without a value it would take the file for one
     *o = (struct scad_options){r->openscad, arguments, n, r->frames};
 }
 

@@ -95,6 +95,26 @@ ln -s private.png link.png
 [ -L link.png ] && [ "$(stat -c %a private.png)" = 600 ] && [ "$(wc -c <private.png)" -gt 100 ] ||
     fault 'link.png: not written through'
 rm -f link.png private.png
+mkdir elsewhere
+ln -s elsewhere/new.png first.png
+ln -s first.png link.png
+"$render" -o link.png a.csg || fault 'link.png: not written where nothing is yet'
+[ -L link.png ] && [ -L first.png ] && [ -s elsewhere/new.png ] || fault 'link.png: not followed'
+rm -r link.png first.png elsewhere
+ln -s loop.png loop.png
+expect 2 'loop.png: ' -o loop.png a.csg
+rm -f loop.png
+if [ "$(id -u)" -ne 0 ]; then
+    echo old >out.png
+    chmod 444 out.png
+    "$render" -o out.png a.csg 2>/dev/null
+    [ $? -eq 2 ] && [ "$(cat out.png)" = old ] || fault 'a file that is read-only was written'
+    rm -f out.png
+    mkdir closed
+    chmod 555 closed
+    expect 2 'closed/x.png: Permission denied' -o closed/x.png a.csg
+    rmdir closed
+fi
 
 # A failure keeps the picture that was there, and no temporary file stays.
 echo old >out.png

@@ -46,8 +46,8 @@ passes 'a.scad|'
 passes '-D|x=1|-D|s="a b"|a.scad|' -D x=1 '-Ds="a b"'
 echo '{"parameterSets": {"big one": {"x": "1"}, "b": {}}, "fileFormatVersion": "1"}' >sets.json
 passes '-p|sets.json|-P|big one|a.scad|' -p sets.json -P 'big one'
-passes '--render|a.scad|' --render
-passes '--render|a.scad|' --render=cgal
+passes '--render=force|a.scad|' --render
+passes '--render=force|a.scad|' --render=cgal
 passes 'a.scad|' --preview=throwntogether
 passes 'a.scad|' --render --preview
 passes '-m|make -s|a.scad|' -m 'make -s'
@@ -76,6 +76,18 @@ if OPENSCAD= command -v openscad >/dev/null; then
     [ "$(sed -n 's/^Camera:.*=//p' cameras | tr '\n' ' ')" = '0,0,0,60,0,0,20 0,0,0,60,0,45,20 ' ] ||
         fault "animation: $(cat cameras)"
     cmp -s turn00000.png turn00001.png && fault 'animation: does not turn'
+    echo 'x = 1; echo(x, $preview);' >echo.scad
+    echo '{"parameterSets": {"set": {"x": "3"}}}' >real.json
+    for pair in '1,.true:-q --summary' '1,.true:' '2,.true:-D x=2' '1,.false:--render' \
+        '3,.false:-p real.json -P set --render=cgal' '2,.true:--preview -D x=2 --render'; do
+        # shellcheck disable=SC2086 # several words
+        OPENSCAD= "$render" ${pair#*:} -o out.png echo.scad >/dev/null 2>stderr || fault "$pair: failed"
+        case $pair in
+        *-q*) [ ! -s stderr ] ;;
+        *) grep -q "^ECHO: .*${pair%%:*}\$" stderr ;;
+        esac || fault "$pair: $(cat stderr)"
+    done
+    rm -f out.png
 fi
 
 # The camera of the file: any of four variables moves it from where pictures without one have it.
