@@ -5,7 +5,6 @@
 
 // Keeps rotation, projection and angle of view. Between what shows and the borders of the picture
 // `margin` pixels stay free, on two opposite sides no more than that; on the others it is centred.
-// The camera has to show the whole model when it begins (camera_viewall); it stays as it is where
-// nothing shows.
+// It stays as it is where nothing shows.
 void camera_fit(struct camera *c, int width, int height, double margin, struct cpu_device *device,
                 const struct model *model, const struct render_settings *settings);

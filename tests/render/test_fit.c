@@ -38,8 +38,6 @@ static void expect_fit(const char *text, int width, int height, double margin)
         struct camera c = CAMERA_DEFAULTS;
         c.orthographic = i % 2;
         c.rotation = rotations[i / 2];
-        camera_autocenter(&c, s.model.bounds);
-        camera_viewall(&c, s.model.bounds);
         camera_fit(&c, width, height, margin, s.device, &s.model, &s.settings);
         struct sides f = free_sides(&s, &c, width, height);
         int across = f.left < f.right ? f.left : f.right;
@@ -66,7 +64,7 @@ static void margins_hold(void **state)
 static void large_pictures_are_exact_too(void **state)
 {
     (void)state;
-    expect_fit("cylinder(h=10, r1=5, r2=2, $fn=17);", 900, 700, 30);
+    expect_fit("cylinder(h=10, r1=5, r2=2, $fn=17);", 500, 450, 30);
 }
 
 static void only_what_shows_counts(void **state)
@@ -78,6 +76,21 @@ static void only_what_shows_counts(void **state)
                "multmatrix([[1,0,0,4],[0,1,0,-1],[0,0,1,-1],[0,0,0,1]]) cube(size=[200,200,200]);"
                "multmatrix([[1,0,0,-1],[0,1,0,-1],[0,0,1,-1],[0,0,0,1]]) cube(size=[200,96,200]);}",
                150, 150, 10);
+}
+
+static void long_and_thin_things_are_found(void **state)
+{
+    (void)state;
+    struct stage s;
+    stage_make(&s, "cube(size=[1,1,100000]);");
+    for (int i = 0; i < 2; i++) {
+        struct camera c = {.distance = 1, .fov = 22.5, .orthographic = i};
+        camera_fit(&c, 100, 50, 5, s.device, &s.model, &s.settings);
+        struct sides f = free_sides(&s, &c, 100, 50);
+        if (f.left != 30 || f.right != 30 || f.top != 5 || f.bottom != 5)
+            fail_msg("view %d: %d %d %d %d free", i, f.left, f.right, f.top, f.bottom);
+    }
+    stage_free(&s);
 }
 
 static void nothing_leaves_the_camera(void **state)
@@ -98,6 +111,7 @@ int main(void)
         cmocka_unit_test(margins_hold),
         cmocka_unit_test(large_pictures_are_exact_too),
         cmocka_unit_test(only_what_shows_counts),
+        cmocka_unit_test(long_and_thin_things_are_found),
         cmocka_unit_test(nothing_leaves_the_camera),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
