@@ -3,6 +3,7 @@
 
 #include "base/mem.h"
 #include "render/normals.h"
+#include "render/part.h"
 
 #include <stdlib.h>
 
@@ -35,6 +36,7 @@ static struct box box_of(const struct sides *s)
 // The members of the outermost union that are cut or intersected, and the box of the others.
 struct bounds {
     struct sides *parts; // each holds all that its part can be
+    uint32_t *nodes;     // of the expression
     uint32_t count;
     struct box whole; // of them, and of the others
     struct box least; // of what is solid for certain
@@ -65,6 +67,7 @@ static void find_bounds(struct bounds *out, const struct body *body)
     struct box *boxes = mem_alloc((e->node_count + 1) * sizeof *boxes);
     *out = (struct bounds){.whole = BOX_EMPTY, .least = BOX_EMPTY};
     out->parts = mem_alloc((e->node_count + 1) * sizeof *out->parts);
+    out->nodes = mem_alloc((e->node_count + 1) * sizeof *out->nodes);
     for (uint32_t i = 0; i < e->node_count; i++) { // children before parents
         const struct expr_node *n = &e->nodes[i];
         boxes[i] = n->op == EXPR_LEAF ? leaf_box(&body->leaves[n->leaf]) : node_box(e, n, boxes);
@@ -72,8 +75,10 @@ static void find_bounds(struct bounds *out, const struct body *body)
                                  : n->parent == e->root && e->nodes[e->root].op == EXPR_UNION;
         if (part && n->op == EXPR_LEAF)
             out->least = box_union(out->least, boxes[i]);
-        else if (part && !box_is_empty(boxes[i]))
+        else if (part && !box_is_empty(boxes[i])) {
+            out->nodes[out->count] = i;
             out->parts[out->count++] = sides_of(boxes[i]);
+        }
         if (i == e->root)
             out->whole = boxes[i];
     }
@@ -214,12 +219,10 @@ static void pick(struct search *s, const struct window *w, struct beam *out)
     }
 }
 
-// Looks at a window, then closer and closer at what stands out in it.
-static void search_window(struct search *s, const struct window *w)
+// Looks closer and closer at what stands out in the window that was looked at.
+static void refine(struct search *s, const struct window *w)
 {
     struct beam now = {.count = 0};
-    draw(s, w);
-    look(s, w);
     pick(s, w, &now);
     for (int round = 0; round < ROUNDS && now.count; round++) {
         struct beam next = {.count = 0};
@@ -235,7 +238,7 @@ static void search_window(struct search *s, const struct window *w)
     }
 }
 
-static void search_box(struct search *s, const struct sides *box)
+static struct window look_at(struct search *s, const struct sides *box)
 {
     struct window w = {.reference = s->range / 2};
     for (int k = 0; k < 2; k++) {
@@ -245,7 +248,22 @@ static void search_box(struct search *s, const struct sides *box)
         w.size[k] = length > s->tolerance ? EXTENT_PIXELS : 1;
         w.pixel[k] = fmax(length, s->tolerance) / w.size[k];
     }
-    search_window(s, &w);
+    draw(s, &w);
+    look(s, &w);
+    return w;
+}
+
+// Parts are looked at for themselves: the others would only take time.
+static void search_part(struct search *s, const struct sides *box, uint32_t node)
+{
+    const struct body *whole = s->body;
+    struct body part;
+    part_init(&part, whole, node);
+    s->body = &part;
+    struct window w = look_at(s, box);
+    refine(s, &w);
+    s->body = whole;
+    part_free(&part);
 }
 
 // How far in a part may begin.
@@ -282,11 +300,11 @@ static double search_side(struct search *s, const struct bounds *b, double certa
     if (count)
         qsort(list, count, sizeof *list, by_bound);
     if (count > APART)
-        search_box(s, &whole);
+        look_at(s, &whole);
     for (uint32_t i = 0; i < count && i < PARTS_MOST; i++) {
         if (!(list[i].bound < s->best - s->tolerance))
             break;
-        search_box(s, &b->parts[list[i].part]);
+        search_part(s, &b->parts[list[i].part], b->nodes[list[i].part]);
     }
     free(list);
     return s->best;
@@ -352,6 +370,7 @@ struct box extent_find(struct cpu_device *d, const struct model *m,
     }
     normals_free(&normals);
     free(bounds.parts);
+    free(bounds.nodes);
     free(s.image.depth);
     free(s.image.leaf);
     free(s.image.face);

@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "hcsg/products.h"
+#include "render/part.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -78,21 +79,6 @@ static void put_product(struct builder *b, const uint32_t *leaves, struct produc
     else
         put_token(b, EXPR_INTERSECTION, p.added);
     b->members++;
-}
-
-static void finish_body(struct body *body)
-{
-    struct box *boxes = mem_alloc((body->leaf_count + 1) * sizeof *boxes);
-    bool *convex = mem_alloc(body->leaf_count + 1);
-    for (uint32_t i = 0; i < body->leaf_count; i++) {
-        boxes[i] = body->leaves[i].box;
-        convex[i] = body->leaves[i].solid->convex;
-    }
-    roi_build(boxes, &body->expr, boxes);
-    body->roi = boxes;
-    sharing_build(&body->sharing, &body->expr, convex, true);
-    body->table = discovery_new(&body->expr, &body->sharing);
-    free(convex);
 }
 
 // Ends the layer under construction, if there is one. The address of its expression must not move
@@ -203,7 +189,7 @@ static void body_layers_init(struct body_layers *out, const struct shader *shade
     }
     end_layer(&b, false);
     for (uint32_t i = 0; i < out->count; i++) // their places are final: tables borrow from bodies
-        finish_body(&out->items[i].body);
+        part_finish(&out->items[i].body);
     free(b.boxes);
     free(b.tokens);
 }
@@ -370,12 +356,7 @@ void layers_delete(struct layers *l)
     for (uint32_t i = 0; i < l->body_count; i++) {
         struct body_layers *layers = &l->bodies[i];
         for (uint32_t k = 0; k < layers->count; k++) {
-            struct body *body = &layers->items[k].body;
-            discovery_delete(body->table);
-            sharing_free(&body->sharing);
-            expr_free(&body->expr);
-            free(body->roi);
-            free(body->leaves);
+            part_free(&layers->items[k].body);
             free(layers->items[k].leaf_of);
             free(layers->items[k].members);
         }

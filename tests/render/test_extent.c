@@ -22,8 +22,8 @@ static void expect(const char *text, struct vec3 min, struct vec3 max)
     double most = EXTENT_TOLERANCE * vec3_length(vec3_sub(max, min));
     double off = fmax(vec3_length(vec3_sub(found.min, min)), vec3_length(vec3_sub(found.max, max)));
     if (!(off <= 2 * most))
-        fail_msg("%s: (%.9g %.9g %.9g) - (%.9g %.9g %.9g)", text, found.min.x, found.min.y,
-                 found.min.z, found.max.x, found.max.y, found.max.z);
+        fail_msg("(%.9g %.9g %.9g) - (%.9g %.9g %.9g): %s", found.min.x, found.min.y, found.min.z,
+                 found.max.x, found.max.y, found.max.z, text);
 }
 
 static void unions_have_the_box_of_their_corners(void **state)
@@ -77,6 +77,22 @@ static void thin_parts_count(void **state)
            (struct vec3){0, 0, 0}, (struct vec3){300.01, 50, 10});
 }
 
+// A row of cubes whose outer ends are cut away, the outermost ones but for a plate.
+static void many_parts_are_told_apart(void **state)
+{
+    (void)state;
+    char text[8192];
+    size_t used = 0;
+    for (int i = 0; i < 30; i++) {
+        used += (size_t)snprintf(text + used, sizeof text - used,
+                                 "difference() { multmatrix([[1,0,0,%d],[0,1,0,%d],[0,0,1,0],"
+                                 "[0,0,0,1]]) cube(8); " AT(-1, -1, 0.2) "cube([400, 400, %d]); }",
+                                 10 * i, i, i % 10 ? 3 : 20);
+        assert_true(used < sizeof text);
+    }
+    expect(text, (struct vec3){0, 0, 0}, (struct vec3){298, 37, 8});
+}
+
 static void nothing_is_empty(void **state)
 {
     (void)state;
@@ -92,6 +108,7 @@ int main(void)
         cmocka_unit_test(what_is_cut_off_does_not_count),
         cmocka_unit_test(tips_are_found),
         cmocka_unit_test(thin_parts_count),
+        cmocka_unit_test(many_parts_are_told_apart),
         cmocka_unit_test(nothing_is_empty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -58,6 +58,19 @@ static struct face_at face_of(const struct query *q, int32_t owner, float key)
     return (struct face_at){&q->t->leaves[owner >> 1], owner & 1, key};
 }
 
+// Of geometry, which of two faces in one plane shows depends on all that meet there: such rays are
+// walked in the end.
+static void note_mixed(struct query *q, int ray, int32_t a, float key_a, int32_t b, float key_b)
+{
+    const struct body *body = q->t->frame->body;
+    if (!body->borders || a < 0 || b < 0)
+        return;
+    const struct leaf *one = &body->leaves[q->t->leaves[a >> 1].leaf];
+    if (one->subtracted != body->leaves[q->t->leaves[b >> 1].leaf].subtracted &&
+        (key_a == key_b || tile_coplanar(q->t, ray, face_of(q, a, key_a), face_of(q, b, key_b))))
+        q->mixed |= (uint64_t)1 << ray;
+}
+
 // Of two surfaces within epsilon the expression shows that of `owner`. Is it the other one that is
 // seen, because both lie in one plane and it is the later one? Faces of different planes that meet
 // there do not hide each other: else the side of a solid would show in its neighbour's flat face.
@@ -68,18 +81,6 @@ static bool covers(const struct query *q, int ray, int32_t other, float other_ke
         return false;
     return owner < 0 || other_key == key ||
            tile_coplanar(q->t, ray, face_of(q, other, other_key), face_of(q, owner, key));
-}
-
-// Of geometry, which of two faces at one place shows depends on all that meet there: such rays are
-// walked in the end.
-static void note_mixed(struct query *q, int ray, int32_t a, int32_t b)
-{
-    const struct body *body = q->t->frame->body;
-    if (!body->borders || a < 0 || b < 0)
-        return;
-    const struct leaf *one = &body->leaves[q->t->leaves[a >> 1].leaf];
-    if (one->subtracted != body->leaves[q->t->leaves[b >> 1].leaf].subtracted)
-        q->mixed |= (uint64_t)1 << ray;
 }
 
 static void note_sliver(struct query *q, int ray, float end)
@@ -105,7 +106,7 @@ static void ray_in(struct query *q, int ray, float band, int32_t id, float *key,
             continue;
         }
         if (fabsf(e - c) <= band)
-            note_mixed(q, ray, id, *owner);
+            note_mixed(q, ray, id, e, *owner, c);
         if (e > c) {
             if (!(e - c <= band && *owner >= 0 && covers(q, ray, *owner, c, id, e) &&
                   thin(q, ray, c, *owner, e, id, band)))
@@ -126,7 +127,7 @@ static void ray_out(struct query *q, int ray, float band, int32_t id, float *key
     for (uint32_t i = 0; i < q->lane_count; i++) {
         float e = q->lane[i].enter, x = q->lane[i].leave, c = *key;
         if (fabsf(x - c) <= band)
-            note_mixed(q, ray, id | 1, *owner);
+            note_mixed(q, ray, id | 1, x, *owner, c);
         if (x > c && (e <= c || thin(q, ray, c, *owner, e, id, band))) {
             bool same = x - c <= band && *owner >= 0 && covers(q, ray, *owner, c, id | 1, x) &&
                         thin(q, ray, c, *owner, x, id | 1, band);
@@ -271,7 +272,7 @@ static void nearer(struct query *q, struct rays_at *s, const struct rays_at *oth
         for (; tie; tie &= tie - 1) {
             int x = __builtin_ctz((unsigned)tie);
             int32_t front = owner[x], back = b_first[x] ? s->owner[y][x] : other->owner[y][x];
-            note_mixed(q, y * BLOCK + x, front, back);
+            note_mixed(q, y * BLOCK + x, front, fminf(a[x], b[x]), back, fmaxf(a[x], b[x]));
             if (covers(q, y * BLOCK + x, back, fmaxf(a[x], b[x]), front, fminf(a[x], b[x])))
                 owner[x] = back;
         }
