@@ -116,6 +116,19 @@ static bool draw_sheet(struct drawn *d, struct error *err)
     return true;
 }
 
+// As OpenSCAD: of evaluated geometry the result of a boolean shows its edges, a lone shape none.
+static void want_edges(struct drawn *d)
+{
+    const struct view_options *v = &d->request->view;
+    if (d->model->mode != MODEL_RENDER && v->edges)
+        d->shader.edges = d->facets = facets_new(d->model);
+    if (d->model->mode != MODEL_RENDER || d->model->single || d->model->flat)
+        return;
+    if (v->edges || v->wireframe)
+        d->shot.picture.wires = d->facets = facets_new(d->model);
+    d->shot.picture.bare = v->wireframe;
+}
+
 bool drawn_make(struct drawn *out, const struct request *r, const struct model *m,
                 const struct view *view, struct error *err)
 {
@@ -137,8 +150,8 @@ bool drawn_make(struct drawn *out, const struct request *r, const struct model *
         if (draws && !r->sorted)
             d.shader.layers = d.layers = layers_new(&d.shader);
     }
-    if (draws && r->view.edges)
-        d.shader.edges = d.facets = facets_new(m);
+    if (draws)
+        want_edges(&d);
     if (draws)
         ok = !view && r->style.views.count ? draw_sheet(&d, err) : draw_picture(&d, view, err);
     if (ok && maps)

@@ -15,6 +15,7 @@ static const struct {
     {"crosshairs", offsetof(struct view_options, crosshairs)},
     {"edges", offsetof(struct view_options, edges)},
     {"scales", offsetof(struct view_options, scales)},
+    {"wireframe", offsetof(struct view_options, wireframe)},
 };
 
 static void set(struct view_options *out, const char *name, size_t length)

@@ -3,7 +3,7 @@
 #include <stdbool.h>
 
 struct view_options {
-    bool axes, crosshairs, edges, scales;
+    bool axes, crosshairs, edges, scales, wireframe;
 };
 
 // Names between commas; as by OpenSCAD, unknown ones only make a message on stderr. NULL: none.

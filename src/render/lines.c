@@ -128,36 +128,28 @@ void lines_draw_flat(const struct canvas *c, const struct line_style *style, str
                  (struct end){to.x + 0.5, c->height - 0.5 - to.y, 0});
 }
 
-// Where a point in front of the eye shows; `p` is seen from rays->origin, at that depth.
-static struct end project(const struct rays *rays, struct vec3 p, double depth)
+static struct end end_at(const struct rays *rays, struct vec3 p)
 {
-    if (!rays->orthographic)
-        p = vec3_sub(vec3_scale(p, 1 / depth), rays->forward);
-    double x = vec3_dot(p, rays->step_x) / vec3_dot(rays->step_x, rays->step_x);
-    double y = vec3_dot(p, rays->step_y) / vec3_dot(rays->step_y, rays->step_y);
-    return (struct end){x + 0.5, rays->height - 0.5 - y, rays->orthographic ? depth : 1 / depth};
+    struct vec3 place = rays_place(rays, p);
+    return (struct end){place.x + 0.5, rays->height - 0.5 - place.y,
+                        rays->orthographic ? place.z : 1 / place.z};
 }
 
 void lines_draw(const struct canvas *c, const struct rays *rays, const struct line_style *style,
                 struct vec3 from, struct vec3 to)
 {
-    struct vec3 ahead = vec3_normalized(vec3_cross(rays->step_y, rays->step_x));
-    if (vec3_dot(ahead, rays->forward) < 0)
-        ahead = vec3_scale(ahead, -1);
-    struct vec3 a = vec3_sub(from, rays->origin), b = vec3_sub(to, rays->origin);
-    double depth_a = vec3_dot(a, ahead), depth_b = vec3_dot(b, ahead);
+    double depth_a = rays_place(rays, from).z, depth_b = rays_place(rays, to).z;
     // Cut in the world: what is behind the eye has no place in the picture.
     double start = 0, stop = 1;
     if (!cut(rays->near - depth_a, rays->near - depth_b, &start, &stop) ||
         !cut(depth_a - rays->far, depth_b - rays->far, &start, &stop))
         return;
-    struct vec3 along = vec3_sub(b, a);
-    double slope = depth_b - depth_a;
+    struct vec3 along = vec3_sub(to, from);
     struct pen p = {.canvas = c,
                     .style = style,
                     .depth = c->depth,
                     .inverse = !rays->orthographic,
                     .reference = rays->reference};
-    draw_clipped(&p, project(rays, vec3_add(a, vec3_scale(along, start)), depth_a + slope * start),
-                 project(rays, vec3_add(a, vec3_scale(along, stop)), depth_a + slope * stop));
+    draw_clipped(&p, end_at(rays, vec3_add(from, vec3_scale(along, start))),
+                 end_at(rays, vec3_add(from, vec3_scale(along, stop))));
 }

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "render/blend.h"
 #include "render/outlines.h"
+#include "render/wires.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,9 +21,11 @@ static void reserve(struct picture *p, int width, int height)
 {
     if (p->rgb && p->width == width && p->height == height)
         return;
-    const struct overlay *overlay = p->overlay;
+    const struct picture kept = *p;
     picture_free(p);
-    p->overlay = overlay;
+    p->overlay = kept.overlay;
+    p->wires = kept.wires;
+    p->bare = kept.bare;
     size_t n = (size_t)width * (size_t)height;
     struct surface_image *images[] = {&p->surface, &p->scratch};
     for (size_t i = 0; i < array_count(images); i++)
@@ -193,7 +196,7 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
     *stats = (struct render_stats){0};
     reserve(p, rays->width, rays->height);
     const struct model *model = shader->model;
-    bool begun = model->body_count && shader->bodies[0].opaque && !around &&
+    bool begun = !p->bare && model->body_count && shader->bodies[0].opaque && !around &&
                  model->bodies[0].kind == BODY_MAIN; // it brings the background
     if (!begun)
         parallel_for(((uint32_t)p->height + ROWS - 1) / ROWS, settings->threads, clear_rows,
@@ -201,7 +204,7 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
     const struct canvas canvas = {p->width, p->height, p->rgb, p->depth};
     if (p->overlay && !begun)
         overlay_draw_among(p->overlay, rays, &canvas);
-    for (uint32_t b = 0; b < model->body_count; b++) {
+    for (uint32_t b = 0; b < model->body_count && !p->bare; b++) {
         const struct body *body = &model->bodies[b];
         bool main = body->kind == BODY_MAIN;
         struct drawing d = {.picture = p,
@@ -233,6 +236,8 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
             overlay_draw_among(p->overlay, rays, &canvas);
     }
     layers_delete(around);
+    if (p->wires)
+        wires_draw(&canvas, device, model, shader->scheme, p->wires, rays, settings);
     outlines_draw(&canvas, shader, rays);
     if (p->overlay)
         overlay_draw_over(p->overlay, rays, &canvas);

@@ -31,3 +31,15 @@ static inline struct vec3 rays_direction(const struct rays *r, double x, double 
         return r->forward;
     return vec3_add(r->forward, vec3_add(vec3_scale(r->step_x, x), vec3_scale(r->step_y, y)));
 }
+
+// Where a point shows: x and y of the picture, and its depth. Behind the eye it has no place.
+static inline struct vec3 rays_place(const struct rays *r, struct vec3 p)
+{
+    struct vec3 ahead = vec3_normalized(vec3_cross(r->step_y, r->step_x));
+    p = vec3_sub(p, r->origin);
+    double depth = vec3_dot(p, ahead) / vec3_dot(r->forward, ahead);
+    if (!r->orthographic)
+        p = vec3_sub(vec3_scale(p, 1 / depth), r->forward);
+    return (struct vec3){vec3_dot(p, r->step_x) / vec3_dot(r->step_x, r->step_x),
+                         vec3_dot(p, r->step_y) / vec3_dot(r->step_y, r->step_y), depth};
+}

@@ -73,7 +73,7 @@ done
 
 # Axes are black, arms of the tripod red, green and blue; crosshairs are dark red.
 "$render" --view=axes,cubes,crosshairs -o view.png empty.csg 2>stderr || fault 'view failed'
-[ "$(cat stderr)" = "hcsg-render: --view: 'cubes' is ignored; there are axes, crosshairs, edges, scales" ] ||
+[ "$(cat stderr)" = "hcsg-render: --view: 'cubes' is ignored; there are axes, crosshairs, edges, scales, wireframe" ] ||
     fault "view: says '$(cat stderr)'"
 for colour in 0,0,0 255,0,0 0,255,0 0,0,255 128,0,0; do
     colours view.png | grep -q " $colour$" || fault "view: lacks $colour"
