@@ -84,28 +84,31 @@ static uint32_t fold_union(struct scene *s, uint32_t left, uint32_t right)
     return left_marked ? right : left;
 }
 
-// The box of the leaves of a term.
-static struct box box_of(const struct scene *s, uint32_t term)
+// As OpenSCAD has it: flat shapes without thickness, of a difference the box of the left operand.
+static struct box find_box(const struct scene *s, const struct term *t)
 {
-    uint32_t *todo = NULL, count = 0, room = 0;
-    struct box box = BOX_EMPTY;
-    array_reserve(&todo, &room, 1);
-    if (term < TERM_EMPTY)
-        todo[count++] = term;
-    while (count) {
-        const struct term *t = &s->terms[todo[--count]];
-        if (t->op == TERM_LEAF) {
-            const struct leaf *leaf = &s->leaves[t->left];
-            box = box_union(box, box_transformed(leaf->solid->bounds, &leaf->to_world));
-            continue;
-        }
-        array_reserve(&todo, &room, (size_t)count + 2);
-        todo[count++] = t->left;
-        if (t->op != TERM_DIFFERENCE)
-            todo[count++] = t->right;
+    if (t->op == TERM_LEAF) {
+        const struct leaf *leaf = &s->leaves[t->left];
+        struct box box = leaf->solid ? leaf->solid->bounds : BOX_EMPTY;
+        if (leaf->flat)
+            box.min.z = box.max.z = 0;
+        return box_transformed(box, &leaf->to_world);
     }
-    free(todo);
-    return box;
+    struct box left = s->boxes[t->left], right = s->boxes[t->right];
+    return t->op == TERM_UNION          ? box_union(left, right)
+           : t->op == TERM_INTERSECTION ? box_intersection(left, right)
+                                        : left;
+}
+
+static bool boxes_meet(struct scene *s, uint32_t left, uint32_t right)
+{
+    uint32_t last = left > right ? left : right;
+    if (left >= TERM_EMPTY || right >= TERM_EMPTY)
+        return false;
+    array_reserve(&s->boxes, &s->box_room, (size_t)last + 1);
+    for (; s->box_count <= last; s->box_count++) // operands come before what is made of them
+        s->boxes[s->box_count] = find_box(s, &s->terms[s->box_count]);
+    return !box_is_empty(box_intersection(s->boxes[left], s->boxes[right]));
 }
 
 uint32_t scene_fold(struct scene *s, enum term_op op, uint32_t left, uint32_t right)
@@ -125,11 +128,12 @@ uint32_t scene_fold(struct scene *s, enum term_op op, uint32_t left, uint32_t ri
         return fold_union(s, left, right);
     uint32_t t = combine(s, op, left, right);
     bool all = op == TERM_DIFFERENCE ? left_marks : left_marks && right_marks;
-    // As in OpenSCAD, what is empty by its boxes alone has no mark: its operands show theirs.
-    if (all && op == TERM_INTERSECTION &&
-        box_is_empty(box_intersection(box_of(s, left), box_of(s, right))))
-        all = false;
-    if (all) {
+    // As in OpenSCAD, what is empty by its boxes alone has no mark: its operands show theirs. And
+    // what misses the other by its box is not subtracted from it.
+    bool meet = !all || boxes_meet(s, left, right);
+    if (all && !meet && op == TERM_DIFFERENCE)
+        scene_show_apart(s, right);
+    if (all && (meet || op == TERM_DIFFERENCE)) {
         scene_mark(s, t, CSG_HIGHLIGHT);
         return t;
     }
@@ -186,6 +190,7 @@ void scene_free(struct scene *s)
 {
     free(s->leaves);
     free(s->terms);
+    free(s->boxes);
     free(s->backgrounds.items);
     free(s->highlights.items);
     *s = (struct scene){0};

@@ -26,6 +26,8 @@ struct scene {           // {0} is empty
     uint32_t leaf_count, leaf_room;
     struct term *terms;
     uint32_t term_count, term_room;
+    struct box *boxes; // of the terms for which they were asked
+    uint32_t box_count, box_room;
     uint32_t root; // the picture's solid part
     struct term_list backgrounds, highlights;
 };

@@ -13,11 +13,12 @@ struct colour {
 
 enum render_state { RENDER_OUTSIDE, RENDER_NODE, RENDER_BELOW };
 
-// A node whose children are being folded.
+// A node whose children are being visited. They are folded when all are there: what one of them
+// shows apart comes before what the node itself does, as in OpenSCAD.
 struct frame {
     const struct csg_node *node;     // NULL: the top level
     const struct csg_node *next;     // child to be visited
-    uint32_t term;                   // of the children so far
+    uint32_t first;                  // of its operands: the terms of the children so far
     uint32_t matrix, colour, detail; // newest entries of the stacks that hold for the children
     uint8_t operation, render;
     bool aside; // only for what is marked below it, which is shown apart
@@ -27,6 +28,8 @@ struct walk {
     struct builder *b;
     struct frame *frames;
     uint32_t frame_count, frame_room;
+    uint32_t *operands;
+    uint32_t operand_count, operand_room;
     struct affine *matrices;
     uint32_t matrix_room;
     struct colour *colours;
@@ -80,36 +83,45 @@ static void push_frame(struct walk *w, struct frame f)
     struct detail assigned = w->details[f.detail];
     if (detail_assigned(&assigned, f.next))
         push_detail(w, &f, assigned);
+    f.first = w->operand_count;
     array_reserve(&w->frames, &w->frame_room, (size_t)w->frame_count + 1);
     w->frames[w->frame_count++] = f;
 }
 
 // Below render() the parts are one object: objects marked % are left out of it, those marked # take
 // part, and both are shown beside it as elsewhere, except those directly below render().
-static void fold_rendered(struct walk *w, struct frame *f, uint32_t term)
+static uint32_t fold_rendered(struct scene *s, const struct frame *f, uint32_t left, uint32_t term)
 {
-    struct scene *s = &w->b->scene;
     uint32_t marks = scene_marks(s, term);
     if (f->render == RENDER_NODE) {
         if (marks)
             s->terms[term].marks = 0;
         if (marks & CSG_BACKGROUND)
-            return;
-    } else if (f->operation == TERM_UNION && f->term != TERM_NONE) {
-        uint32_t before = scene_marks(s, f->term);
+            return left;
+    } else if (f->operation == TERM_UNION && left != TERM_NONE) {
+        uint32_t before = scene_marks(s, left);
         if ((marks | before) == CSG_HIGHLIGHT && marks != before)
-            scene_show_apart(s, marks ? term : f->term); // no longer marked, it stays in the union
+            scene_show_apart(s, marks ? term : left); // no longer marked, it stays in the union
     }
-    f->term = scene_fold(s, f->operation, f->term, term);
+    return scene_fold(s, f->operation, left, term);
 }
 
-static void fold(struct walk *w, uint32_t term)
+// Takes the operands of a node off the stack and returns what they make, TERM_NONE without any.
+static uint32_t fold(struct walk *w, const struct frame *f)
 {
-    struct frame *f = &w->frames[w->frame_count - 1];
-    if (f->render != RENDER_OUTSIDE)
-        fold_rendered(w, f, term);
-    else
-        f->term = scene_fold(&w->b->scene, f->operation, f->term, term);
+    struct scene *s = &w->b->scene;
+    uint32_t term = TERM_NONE;
+    for (uint32_t i = f->first; i < w->operand_count; i++)
+        term = f->render != RENDER_OUTSIDE ? fold_rendered(s, f, term, w->operands[i])
+                                           : scene_fold(s, f->operation, term, w->operands[i]);
+    w->operand_count = f->first;
+    return term;
+}
+
+static void put_operand(struct walk *w, uint32_t term)
+{
+    array_reserve(&w->operands, &w->operand_room, (size_t)w->operand_count + 1);
+    w->operands[w->operand_count++] = term;
 }
 
 static void mark(struct walk *w, const struct csg_node *n, uint32_t term)
@@ -129,7 +141,7 @@ static void visit_shape(struct walk *w, const struct csg_node *n, const struct n
         term = scene_leaf(&w->b->scene, &leaf);
     }
     mark(w, n, term);
-    fold(w, term);
+    put_operand(w, term);
 }
 
 static void visit_parent(struct walk *w, const struct csg_node *n, const struct node_type *type)
@@ -137,7 +149,6 @@ static void visit_parent(struct walk *w, const struct csg_node *n, const struct 
     struct frame f = w->frames[w->frame_count - 1];
     f.node = n;
     f.next = n->child;
-    f.term = TERM_NONE;
     f.operation = (uint8_t)type->operation;
     if (type->parameters) {
         struct args args;
@@ -154,7 +165,7 @@ static void visit_parent(struct walk *w, const struct csg_node *n, const struct 
     }
     if (!affine_is_finite(&w->matrices[f.matrix])) {
         builder_warn(w->b, n, "the matrix of %s() is not finite; left out", n->name);
-        fold(w, TERM_EMPTY);
+        put_operand(w, TERM_EMPTY);
         return;
     }
     if (f.render == RENDER_NODE)
@@ -208,12 +219,11 @@ static void visit_geometry(struct walk *w, const struct csg_node *n, const struc
         term = TERM_EMPTY;
     }
     mark(w, n, term);
-    fold(w, term);
+    put_operand(w, term);
     if (type->shows_marked && has_marked(n)) {
         struct frame aside = *f;
         aside.node = n;
         aside.next = n->child;
-        aside.term = TERM_NONE;
         aside.operation = TERM_UNION;
         aside.aside = true;
         push_frame(w, aside);
@@ -264,7 +274,7 @@ static void visit(struct walk *w, const struct csg_node *n)
         break;
     case NODE_UNSUPPORTED:
         builder_warn_left_out(w->b, n, type);
-        fold(w, TERM_EMPTY);
+        put_operand(w, TERM_EMPTY);
         break;
     case NODE_UNKNOWN: // as if it were not there
         builder_warn_left_out(w->b, n, type);
@@ -277,7 +287,9 @@ static void visit(struct walk *w, const struct csg_node *n)
 static void leave(struct walk *w)
 {
     struct frame f = w->frames[--w->frame_count];
-    uint32_t term = f.term == TERM_NONE ? TERM_EMPTY : f.term;
+    uint32_t term = fold(w, &f);
+    if (term == TERM_NONE)
+        term = TERM_EMPTY;
     if (f.aside) {
         scene_show_apart(&w->b->scene, term);
         return;
@@ -285,7 +297,7 @@ static void leave(struct walk *w)
     mark(w, f.node, term);
     if (f.render == RENDER_NODE)
         scene_rendered(&w->b->scene, term);
-    fold(w, term);
+    put_operand(w, term);
 }
 
 const struct csg_node *builder_root(struct builder *b)
@@ -319,8 +331,7 @@ void builder_walk(struct builder *b)
     w.details[0] = DETAIL_DEFAULT;
 
     const struct csg_node *root = builder_root(b);
-    push_frame(&w,
-               (struct frame){.next = b->tree->first, .term = TERM_NONE, .operation = TERM_UNION});
+    push_frame(&w, (struct frame){.next = b->tree->first, .operation = TERM_UNION});
     if (root) {
         w.frames[0].next = NULL;
         visit(&w, root);
@@ -336,8 +347,9 @@ void builder_walk(struct builder *b)
         else
             break;
     }
-    scene_finish(&b->scene, w.frames[0].term);
+    scene_finish(&b->scene, builder_cancelled(b) ? TERM_NONE : fold(&w, &w.frames[0]));
     free(w.frames);
+    free(w.operands);
     free(w.matrices);
     free(w.colours);
     free(w.details);

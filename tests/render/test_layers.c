@@ -69,6 +69,19 @@ static const struct {
      "difference() { %cube(size=[10,10,4],center=true); %" HALF
      " cube(size=[8,8,4],center=true); }",
      {168, 168, 162}},
+    {"what is marked further in comes first",
+     "multmatrix([[1,0,0,20],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(size=[1,1,1]); "
+     "color([1,0,0,0.4]) %cube(size=[10,10,4],center=true); group() { "
+     "multmatrix([[1,0,0,20],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(size=[1,1,1]); "
+     "color([0,0,1,0.6]) %" UP " cube(size=[8,8,4],center=true); }",
+     {41, 41, 203}},
+    {"a marked tool that misses the marked object is shown",
+     "difference() { #cube(size=[10,10,4],center=true); #" UP " cube(size=[8,8,4],center=true); }",
+     {197, 89, 56}},
+    {"a marked tool that cuts the marked object is not",
+     "difference() { #cube(size=[10,10,4],center=true); #" HALF
+     " cube(size=[8,8,4],center=true); }",
+     {160, 111, 63}},
 };
 
 static void draw(struct picture *p, const char *text, bool by_file)
