@@ -1,4 +1,5 @@
-// test_thin.c - plates just thick enough to exist, seen through pixels that are not square.
+// test_thin.c - plates just thick enough to exist, and faces alone, seen through pixels that are
+// not square.
 #include "unit.h"
 
 enum { WIDTH = 24, HEIGHT = 16, PIXELS = WIDTH * HEIGHT };
@@ -77,11 +78,24 @@ static void meshes_are_measured_alike(void **state)
                  0);
 }
 
+// A ray crosses them once, which closes nothing.
+static void faces_of_open_meshes_show(void **state)
+{
+    (void)state;
+    expect_plate("polyhedron(points=[[-90,-90,0],[90,-90,0],[90,90,0],[-90,90,0]],"
+                 "faces=[[3,2,1,0]]);",
+                 PIXELS);
+    expect_plate("polyhedron(points=[[-90,-90,0],[90,-90,0],[90,90,0],[-90,90,0]],"
+                 "faces=[[0,1,2,3]]);",
+                 PIXELS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(thick_enough),
         cmocka_unit_test(meshes_are_measured_alike),
+        cmocka_unit_test(faces_of_open_meshes_show),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

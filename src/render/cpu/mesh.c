@@ -296,14 +296,46 @@ static void sort_crossings(struct mesh_pool *m)
     }
 }
 
-// Makes intervals of the sorted crossings of one ray. The winding number before the first crossing
-// is `winding`; inside is where it is not 0.
-static void make_intervals(struct tile *t, const struct mesh_crossing *c, uint32_t n, int winding)
+// Appends an interval to those of the ray that begin at `begun`.
+static void add_interval(struct tile *t, uint32_t begun, struct mesh_interval now)
 {
     struct mesh_pool *m = &t->mesh;
     float start = t->frame->start, end = t->frame->end;
-    struct mesh_interval now = {.enter = start, .enter_triangle = SURFACE_CAP, .enter_steep = 1};
-    uint32_t begun = m->interval_count;
+    if (m->interval_count > begun && m->intervals[m->interval_count - 1].leave >= now.enter) {
+        const struct mesh_interval *last = &m->intervals[--m->interval_count];
+        now.enter = last->enter; // touching: one interval
+        now.enter_triangle = last->enter_triangle;
+        now.enter_steep = last->enter_steep;
+    }
+    if (now.leave <= start || now.enter >= end || now.leave <= now.enter)
+        return;
+    now.enter = now.enter < start ? start : now.enter;
+    now.leave = now.leave > end ? end : now.leave;
+    array_reserve(&m->intervals, &m->interval_capacity, m->interval_count + 1);
+    m->intervals[m->interval_count++] = now;
+}
+
+// A face of a mesh that does not close: just thick enough to exist.
+static struct mesh_interval sheet(const struct tile *t, const struct mesh_crossing *c)
+{
+    const struct frame *f = t->frame;
+    float growth = f->rays->orthographic ? 1 : 1 - c->key / (float)f->t0; // as in find_band
+    float width = 2 * f->epsilon * growth * growth / fmaxf(c->steep, STEEP_LEAST);
+    return (struct mesh_interval){.enter = c->key,
+                                  .leave = fmaxf(c->key + width, nextafterf(c->key, FLT_MAX)),
+                                  .enter_triangle = c->triangle,
+                                  .leave_triangle = c->triangle,
+                                  .enter_steep = c->steep,
+                                  .leave_steep = c->steep};
+}
+
+// Makes intervals of the sorted crossings of one ray. The winding number before the first crossing
+// is `winding`; inside is where it is not 0. Of what never closes only the faces are there.
+static void make_intervals(struct tile *t, const struct mesh_crossing *c, uint32_t n, int winding)
+{
+    struct mesh_interval now = {
+        .enter = t->frame->start, .enter_triangle = SURFACE_CAP, .enter_steep = 1};
+    uint32_t begun = t->mesh.interval_count, open = 0;
 
     for (uint32_t i = 0; i < n; i++) {
         int before_it = winding;
@@ -316,25 +348,13 @@ static void make_intervals(struct tile *t, const struct mesh_crossing *c, uint32
             now.leave = c[i].key;
             now.leave_triangle = c[i].triangle;
             now.leave_steep = c[i].steep;
-            if (m->interval_count > begun &&
-                m->intervals[m->interval_count - 1].leave >= now.enter) {
-                now.enter = m->intervals[m->interval_count - 1].enter; // touching: one interval
-                now.enter_triangle = m->intervals[m->interval_count - 1].enter_triangle;
-                now.enter_steep = m->intervals[m->interval_count - 1].enter_steep;
-                m->interval_count--;
-            }
-            if (now.leave <= start || now.enter >= end || now.leave <= now.enter)
-                continue;
-            array_reserve(&m->intervals, &m->interval_capacity, m->interval_count + 1);
-            struct mesh_interval *out = &m->intervals[m->interval_count++];
-            *out = now;
-            if (out->enter < start)
-                out->enter = start;
-            if (out->leave > end)
-                out->leave = end;
+            add_interval(t, begun, now);
+            open = i + 1;
         }
     }
-    t->open_rays += winding != 0; // what never closes is left out
+    t->open_rays += winding != 0;
+    for (uint32_t i = open; winding && i < n; i++)
+        add_interval(t, begun, sheet(t, &c[i]));
 }
 
 struct block_leaf *tile_mesh_block(struct tile *t, struct tile_leaf *l, struct block_leaf *out)
