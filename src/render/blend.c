@@ -101,11 +101,14 @@ static uint32_t find_member(const struct layer *l, uint32_t twin)
     return from;
 }
 
-void blend_repeated(const struct drawing *d, struct shade_cache *cache, size_t from, size_t to)
+void blend_repeated(const struct drawing *d)
 {
     const struct layer *l = d->layer;
+    size_t n = (size_t)d->picture->width * (size_t)d->picture->height;
+    struct shade_cache cache;
     uint32_t twin = TWIN_NONE, at = l->body.leaf_count;
-    for (size_t i = from; i < to; i++) {
+    shade_cache_clear(&cache);
+    for (size_t i = 0; i < n; i++) {
         struct owner owner = d->picture->owners[i];
         if (owner.twin == TWIN_NONE)
             continue;
@@ -113,7 +116,7 @@ void blend_repeated(const struct drawing *d, struct shade_cache *cache, size_t f
             at = find_member(l, twin = owner.twin);
         for (uint32_t k = at; k < l->body.leaf_count && l->members[k].twin == twin; k++)
             if (owner.back || !l->members[k].cut)
-                mix_face(d, cache, i, l->members[k].leaf, owner.face);
+                mix_face(d, &cache, i, l->members[k].leaf, owner.face);
     }
 }
 

@@ -25,9 +25,9 @@ struct rgba blend_colour(const struct drawing *d, struct shade_cache *cache, siz
 // Shows the surface that the device found in a pixel unless another one lies in front of it, and
 // hides what lies behind it.
 void blend_surface(const struct drawing *d, struct shade_cache *cache, size_t pixel);
-// Shows once more the faces in all pixels [from, to) whose owner stands in the layer; those that
-// the device found in front have become owners before.
-void blend_repeated(const struct drawing *d, struct shade_cache *cache, size_t from, size_t to);
+// Shows the faces in all pixels whose owner stands in the layer, wherever in the picture; those
+// that the device found in front have become owners before.
+void blend_repeated(const struct drawing *d);
 
 // Sinks of cpu_spans, with a struct drawing as their context.
 // What stands alone: its back faces, then its front faces, each in the order of their numbers, or

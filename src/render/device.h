@@ -48,6 +48,7 @@ struct render_settings {
     uint32_t threads; // 0: one per processor
     size_t memory;    // budget in bytes for a frame beyond model and outputs; 0: 256 MB
     enum walk walk;
+    bool sparse;                  // where no leaf can be, outputs are neither written nor told
     const atomic_bool *cancelled; // once true, the frame ends early and means nothing; NULL: never
 };
 

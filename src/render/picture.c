@@ -128,8 +128,6 @@ static void shade_nearer(const struct drawing *d, struct shade_cache *cache, int
     size_t row = (size_t)y * (size_t)d->surface->width;
     for (size_t i = row + (size_t)x0; i < row + (size_t)x1; i++)
         blend_surface(d, cache, i);
-    if (d->layer && d->layer->repeats)
-        blend_repeated(d, cache, row + (size_t)x0, row + (size_t)x1);
 }
 
 // Shades what was just drawn while it is in the processor's cache.
@@ -137,13 +135,12 @@ static void shade_rect(void *context, struct pixel_rect rect, bool nothing)
 {
     const struct drawing *d = context;
     struct shade_cache cache;
-    bool repeats = d->layer && d->layer->repeats;
-    if (nothing && !d->first && !repeats)
+    if (nothing && !d->first)
         return;
-    if (!nothing || repeats)
+    if (!nothing)
         shade_cache_clear(&cache);
     for (int y = rect.y0; y < rect.y1; y++) {
-        if (nothing && d->first)
+        if (nothing)
             clear_row(d, y, rect.x0, rect.x1);
         else if (d->first)
             shade_runs(d, &cache, y, rect.x0, rect.x1);
@@ -159,13 +156,16 @@ static void draw_layers(struct cpu_device *device, struct drawing *d,
     d->surface = &d->picture->scratch;
     for (uint32_t i = 0; i < layers->count; i++) {
         const struct layer *layer = &layers->items[i];
+        struct render_settings there = *settings;
         struct render_stats one = {0};
+        there.sparse = true;
         d->layer = layer;
         if (layer->both_sides)
-            cpu_spans(device, &layer->body, rays, settings, blend_both_sides, d, &one);
+            cpu_spans(device, &layer->body, rays, &there, blend_both_sides, d, &one);
         else
-            cpu_first_surface(device, &layer->body, rays, settings, d->surface, shade_rect, d,
-                              &one);
+            cpu_first_surface(device, &layer->body, rays, &there, d->surface, shade_rect, d, &one);
+        if (layer->repeats)
+            blend_repeated(d);
         render_stats_add(stats, &one);
     }
 }

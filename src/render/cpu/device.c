@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-enum { MEMORY_DEFAULT = 256 << 20 };
+enum { MEMORY_DEFAULT = 256 << 20, TILES_SHARED = 16 };
 
 struct cpu_device {
     const struct kernel *kernel;
@@ -57,7 +57,29 @@ struct run {
     const struct kernel_job *job;
     void **workers;
     bool *ready; // has worked on this frame
+    struct pixel_rect tiles;
 };
+
+// The tiles to be drawn.
+static struct pixel_rect tiles_of(const struct frame *f)
+{
+    struct pixel_rect all = {0, 0, f->tiles_x, f->tiles_y};
+    float x0 = INFINITY, y0 = INFINITY, x1 = -1, y1 = -1;
+    if (!f->settings->sparse)
+        return all;
+    for (uint32_t i = 0; i < f->leaf_count; i++) {
+        x0 = fminf(x0, f->leaves[i].x0);
+        y0 = fminf(y0, f->leaves[i].y0);
+        x1 = fmaxf(x1, f->leaves[i].x1);
+        y1 = fmaxf(y1, f->leaves[i].y1);
+    }
+    if (!(x0 <= x1 && y0 <= y1))
+        return (struct pixel_rect){0};
+    float right = fminf(x1, (float)(f->rays->width - 1));
+    float bottom = fminf(y1, (float)(f->rays->height - 1));
+    return (struct pixel_rect){(int)fmaxf(x0, 0) / TILE, (int)fmaxf(y0, 0) / TILE,
+                               (int)right / TILE + 1, (int)bottom / TILE + 1};
+}
 
 static void run_tile(void *context, uint32_t item, uint32_t worker)
 {
@@ -74,7 +96,9 @@ static void run_tile(void *context, uint32_t item, uint32_t worker)
             r->workers[worker] = r->kernel->worker_new(r->job, worker);
         r->ready[worker] = true;
     }
-    r->kernel->tile(r->workers[worker], r->job, item);
+    uint32_t columns = (uint32_t)(r->tiles.x1 - r->tiles.x0);
+    uint32_t x = (uint32_t)r->tiles.x0 + item % columns, y = (uint32_t)r->tiles.y0 + item / columns;
+    r->kernel->tile(r->workers[worker], r->job, y * (uint32_t)r->job->frame->tiles_x + x);
 }
 
 static void render(struct cpu_device *d, const struct body *body, const struct rays *rays,
@@ -96,9 +120,12 @@ static void render(struct cpu_device *d, const struct body *body, const struct r
         while (d->worker_count < workers)
             d->workers[d->worker_count++] = NULL;
     }
-    struct run r = {d->kernel, job, d->workers, mem_zalloc(workers * sizeof(bool))};
+    struct run r = {d->kernel, job, d->workers, mem_zalloc(workers * sizeof(bool)), tiles_of(&f)};
     double ready = clock_seconds();
-    parallel_for((uint32_t)(f.tiles_x * f.tiles_y), settings->threads, run_tile, &r);
+    uint32_t tiles = (uint32_t)((r.tiles.x1 - r.tiles.x0) * (r.tiles.y1 - r.tiles.y0));
+    // Waking threads takes longer than a few tiles.
+    parallel_for(tiles, settings->sparse && tiles < TILES_SHARED ? 1 : settings->threads, run_tile,
+                 &r);
     for (uint32_t i = 0; i < workers; i++)
         if (r.ready[i])
             d->kernel->worker_add(r.workers[i], &totals);

@@ -609,6 +609,8 @@ void walk_block(struct tile *t,
     int height = t->y1 - t->by < BLOCK ? t->y1 - t->by : BLOCK;
     uint64_t sum = crossings_count(t, leaves, counts);
     t->fragments += sum;
+    if (!sum && t->frame->settings->sparse)
+        return;
 
     bool whole = sum <= w->list.size && width == BLOCK && height == BLOCK;
     for (int y = 0; y < (whole ? 1 : height); y++) {
