@@ -45,6 +45,7 @@ done
 expect 1 'distance must be above 0' --camera=1,1,1,1,1,1 -o out.png a.csg
 expect 1 "--projection: expected" --projection=x -o out.png a.csg
 expect 1 "no colour scheme 'corn'; there are: Cornfield, Metallic" --colorscheme=corn -o out.png a.csg
+expect 1 '--transparency: expected file or sorted' --transparency=depth -o out.png a.csg
 expect 1 '--device: expected auto or cpu' --device=gl -o out.png a.csg
 expect 1 '--threads: expected' --threads=-1 -o out.png a.csg
 expect 1 '--eps: expected' --eps=-1 -o out.png a.csg

@@ -71,6 +71,17 @@ done
 [ "$(identify -format '%wx%h %[bit-depth]' top.png)" = '300x200 8' ] || fault 'top: wrong size'
 [ "$(colours top.png | wc -l)" -eq 2 ] || fault 'top: not two colours'
 
+# Blue glass hides what is drawn later and lies behind it, unless surfaces are sorted.
+cat >glass.csg <<'EOF'
+multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,8],[0,0,0,1]]) color([0,0,1,0.6]) cube(size=[8,8,4],center=true);
+color([1,0,0,0.4]) cube(size=[10,10,4],center=true);
+EOF
+for order in --threads=0:41,41,203 --transparency=file:41,41,203 --transparency=sorted:35,15,180; do
+    "$render" --imgsize=64,64 --projection=o --camera=0,0,0,0,0,0,100 "${order%:*}" \
+        -o glass.png glass.csg || fault "$order failed"
+    colours glass.png | grep -q " ${order#*:}$" || fault "$order: lacks its colour"
+done
+
 # Axes are black, arms of the tripod red, green and blue; crosshairs are dark red.
 "$render" --view=axes,cubes,crosshairs -o view.png empty.csg 2>stderr || fault 'view failed'
 [ "$(cat stderr)" = "hcsg-render: --view: 'cubes' is ignored; there are axes, crosshairs, edges, scales, wireframe" ] ||
