@@ -36,6 +36,7 @@ constexpr uint32_t NONE = UINT32_MAX;
 // An outline that is not clean after all costs at most this much.
 constexpr int WINDING_MOST = 4;
 constexpr size_t PIECES_PER_EDGE = 3, PIECES_MORE = 1000;
+constexpr uint32_t PIECE_POINTS = 2000;
 
 struct names {
     uint32_t point = NONE; // of the outline: there, or near by for a crossing
@@ -374,6 +375,60 @@ void cut_any(const outline &o, Triangles &out)
     fan(o, out);
 }
 
+// The paths that reach from `low` to `high` along an axis.
+struct stretch {
+    double low, high;
+    uint32_t path;
+};
+
+std::vector<stretch> stretches(const outline &o)
+{
+    box bounds = outline_bounds(&o);
+    double vec2::*along =
+        bounds.max.x - bounds.min.x >= bounds.max.y - bounds.min.y ? &vec2::x : &vec2::y;
+    std::vector<stretch> all;
+    for (uint32_t path = 0, i = 0; path < o.path_count; path++) {
+        stretch s = {INFINITY, -INFINITY, path};
+        for (; i < o.ends[path]; i++) {
+            s.low = std::fmin(s.low, o.points[i].*along);
+            s.high = std::fmax(s.high, o.points[i].*along);
+        }
+        all.push_back(s);
+    }
+    std::sort(all.begin(), all.end(), [](const stretch &a, const stretch &b) {
+        return a.low < b.low || (a.low == b.low && a.path < b.path);
+    });
+    return all;
+}
+
+// Paths one after the other along an axis, as those of a long text, are cut piece by piece: in a
+// strip, neighbours in the order of spatial_sort may lie far apart.
+void cut_pieces(const outline &o, Triangles &out)
+{
+    double reach = -INFINITY;
+    outline piece = {};
+    std::vector<uint32_t> numbers; // of the points of the piece
+    auto flush = [&] {
+        Triangles found;
+        cut_any(piece, found);
+        for (const auto &t : found)
+            out.push_back({numbers[t[0]], numbers[t[1]], numbers[t[2]]});
+        outline_free(&piece);
+        numbers.clear();
+    };
+    for (const stretch &s : stretches(o)) {
+        if (s.low > reach && numbers.size() >= PIECE_POINTS)
+            flush();
+        for (uint32_t i = s.path ? o.ends[s.path - 1] : 0; i < o.ends[s.path]; i++) {
+            outline_add(&piece, o.points[i]);
+            numbers.push_back(i);
+        }
+        outline_close(&piece);
+        reach = std::fmax(reach, s.high);
+    }
+    flush();
+}
+
 void give(const Triangles &found, uint32_t (**triangles)[3], uint32_t *count)
 {
     size_t size = found.size() * sizeof found[0];
@@ -388,7 +443,9 @@ extern "C" void outline_triangulate(const struct outline *o, uint32_t (**triangl
                                     uint32_t *count)
 {
     Triangles found;
-    if (o->path_count > 0)
+    if (o->point_count > 2 * PIECE_POINTS && is_finite(*o))
+        cut_pieces(*o, found);
+    else if (o->path_count > 0)
         cut_any(*o, found);
     give(found, triangles, count);
 }

@@ -144,6 +144,44 @@ static void many_points(void **state)
     outline_free(&o);
 }
 
+// A strip of frames, upwards or to the right, as far from each other in the list as can be: holes
+// come after all outer paths.
+static void long_strips_are_cut_in_pieces(void **state)
+{
+    (void)state;
+    enum { FRAMES = 3000 };
+    for (int up = 0; up < 2; up++) {
+        struct outline o = {0};
+        for (uint32_t i = 0; i < 2 * FRAMES; i++) {
+            bool hole = i >= FRAMES;
+            double at = 10.0 * (i * 7 % FRAMES), low = hole ? 1 : 0, high = hole ? 7 : 8;
+            const double x[4] = {low, high, high, low}, y[4] = {low, low, high, high};
+            for (int k = 0; k < 4; k++) {
+                int c = hole ? 3 - k : k;
+                outline_add(&o,
+                            up ? (struct vec2){x[c], at + y[c]} : (struct vec2){at + x[c], y[c]});
+            }
+            outline_close(&o);
+        }
+        o.clean = true;
+        uint32_t(*t)[3], count;
+        double area = 0;
+        outline_triangulate(&o, &t, &count);
+        assert_int_equal(count, 8 * FRAMES);
+        for (uint32_t i = 0; i < count; i++) {
+            struct vec2 a = o.points[t[i][0]], b = o.points[t[i][1]], c = o.points[t[i][2]];
+            double twice = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+            assert_true(twice > 0);
+            for (int k = 0; k < 3; k++) // of one frame
+                assert_int_equal(t[i][k] / 4 % FRAMES, t[i][0] / 4 % FRAMES);
+            area += twice / 2;
+        }
+        assert_close(area, 28.0 * FRAMES, 1e-6);
+        free(t);
+        outline_free(&o);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -152,6 +190,7 @@ int main(void)
         cmocka_unit_test(paths_may_touch),
         cmocka_unit_test(odd_outlines_close_too),
         cmocka_unit_test(many_points),
+        cmocka_unit_test(long_strips_are_cut_in_pieces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
