@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { STEPS_FEW = 64 }; // more are sorted at once
+
 struct walk_lists {
     struct tile_room room;
     struct crossing_list list;
@@ -96,6 +98,28 @@ static void member_step(struct walk_lists *w, uint32_t class_id, bool in)
     }
 }
 
+static int compare_members(const void *a, const void *b)
+{
+    uint32_t p = ((const struct member *)a)->class_id, q = ((const struct member *)b)->class_id;
+    return p < q ? -1 : p > q;
+}
+
+// Sorts members that were appended one by one, and adds up those of one class.
+static void members_settle(struct walk_lists *w)
+{
+    uint32_t kept = 0;
+    qsort(w->members, w->member_count, sizeof *w->members, compare_members);
+    for (uint32_t i = 0, next; i < w->member_count; i = next) {
+        struct member sum = w->members[i];
+        for (next = i + 1; next < w->member_count && w->members[next].class_id == sum.class_id;
+             next++)
+            sum.count += w->members[next].count;
+        if (sum.count)
+            w->members[kept++] = sum;
+    }
+    w->member_count = kept;
+}
+
 // Makes w->members the combination of the base and the crossings items[0 .. n). Goes on from where
 // the last call stopped if that was in front of n in the same list.
 static void replay(struct tile *t, const crossing *items, uint32_t n)
@@ -111,10 +135,17 @@ static void replay(struct tile *t, const crossing *items, uint32_t n)
         w->replayed_count = 0;
     }
     array_reserve(&w->members, &w->member_capacity, w->member_count + (n - w->replayed_count) + 1);
+    bool many = n - w->replayed_count > STEPS_FEW;
     for (; w->replayed_count < n; w->replayed_count++) {
         uint32_t id = (uint32_t)items[w->replayed_count];
-        member_step(w, class_of[t->leaves[id >> 1].leaf], !(id & 1));
+        uint32_t class_id = class_of[t->leaves[id >> 1].leaf];
+        if (many)
+            w->members[w->member_count++] = (struct member){class_id, id & 1 ? UINT32_MAX : 1};
+        else
+            member_step(w, class_id, !(id & 1));
     }
+    if (many)
+        members_settle(w);
 }
 
 static bool solid_hash(struct tile *t, uint64_t key, const crossing *items, uint32_t n)
