@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 // Objects made of objects twice, forty times over, are 2^40 meshes.
-enum { STEPS_MOST = 1 << 20, TRIANGLES_MOST = 1 << 26 };
+enum { STEPS_MOST = 1 << 20, TRIANGLES_MOST = 1 << 24 };
 
 enum { MISSING = 0xffffffff };
 

@@ -114,7 +114,7 @@ static bool sum_parts(struct operands *o, struct mesh_parts *a, const struct mes
         for (uint32_t k = 0; k < b->count && done; k++) {
             struct minkowski_sum sum = {0};
             uint32_t most = SUM_PARTS_MOST - all.count;
-            done = minkowski_parts(&sum, &a->items[i], &b->items[k], most, 1);
+            done = minkowski_parts(&sum, &a->items[i], &b->items[k], most, 0);
             for (uint32_t p = 0; p < sum.count; p++)
                 mesh_parts_add(&all, &sum.parts[p].mesh, sum.parts[p].convex);
             minkowski_free(&sum);

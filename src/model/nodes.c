@@ -73,7 +73,7 @@ void builder_warn_left_out(struct builder *b, const struct csg_node *n,
     if (known)
         builder_warn(b, n, "%s() is not supported yet; left out", n->name);
     else
-        builder_warn(b, n, "unknown object '%s'; left out", n->name);
+        builder_warn(b, n, "unknown object '%.100s'; left out", n->name);
 }
 
 bool leaf_fits(const struct leaf *leaf)

@@ -91,6 +91,19 @@ done
 
 echo 'hull() { cylinder(r1 = 1, r2 = 1, h = 1, $fn = 20000); cube(0.1); }' | draws 0 ''
 
+{
+    echo 'linear_extrude(height = 1) text("'
+    repeat 400 abcdefghijklmnopqrstuvwxyz
+    echo '");'
+} | tr -d '\n' | draws 0 ''
+{
+    echo 'polyhedron(points = ['
+    awk 'BEGIN { srand(1); for (n = 50000; i < n; i++) { a = 6.2831853 * i / n; r = 5 + rand()
+        printf "[%.9g, %.9g, 0], ", r * cos(a), r * sin(a) }
+        print "], faces = [["; for (i = 0; i < n; i++) printf "%d, ", i }'
+    echo ']]);'
+} | draws 0 ''
+
 # Nesting and length
 for node in 'group(){' 'hull(){' 'projection(){' 'resize([1, 0, 0]){'; do
     { repeat 20000 "$node" && echo 'cube();' && repeat 20000 '}'; } | draws 0 ''
@@ -99,6 +112,7 @@ repeat 1000000 '[' | draws 1 'model.csg:'
 { echo 'cube(' && repeat 100000 '[' && echo ');'; } | draws 1 'model.csg:'
 { echo 'cube(' && repeat 1000000 9 && echo ');'; } | draws 0 'warning: '
 repeat 200000 'bogus();' | draws 0 'bogus'
+{ repeat 100000 bogus && echo '();'; } | draws 0 'bogusbogus'
 { echo 'text("' && repeat 300000 ab && echo '");'; } | draws 0 'warning: '
 { echo 'cube(' && head -c 100000 /dev/zero; } | draws 1 'model.csg:'
 echo 'cube(size = [1, 1' | draws 1 'model.csg:'

@@ -341,7 +341,7 @@ static void doubling_is_refused(void **state)
                      "<component objectid=\"%d\"/></components></object>",
                      i, i - 1, i - 1);
     sprintf(p, "</resources><build><item objectid=\"40\"/></build></model>");
-    refuse_model(model, "file: the build is more than 1048576 objects or 67108864 triangles");
+    refuse_model(model, "file: the build is more than 1048576 objects or 16777216 triangles");
     free(model);
 }
 
