@@ -1,6 +1,7 @@
 // Title: Glass that hides its own back
 // Issues: 1496 4259
 // View: --camera=0,0,12,60,0,20,150
+// Ours: --transparency=sorted
 // The faces of one object are drawn in the order of its mesh: where a near one comes first, those
 // behind it are missing, and a seam shows between the two.
 color("mediumseagreen", 0.5) rotate_extrude($fn = 48, convexity = 4)

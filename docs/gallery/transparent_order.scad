@@ -1,6 +1,7 @@
 // Title: What stands behind glass
 // Issues: 1390 4065 4259
 // View: --camera=0,0,8,68,0,20,150
+// Ours: --transparency=sorted
 // The ball stands before the pane in the file at the left, after it at the right. OpenSCAD draws in
 // the order of the file, so that the right one is hidden by glass.
 module ball() translate([0, 10, 8]) sphere(r = 6, $fn = 40);
