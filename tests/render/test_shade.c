@@ -26,8 +26,18 @@ static const struct solid cube = {.convex = true, .planes = {nx, ny, nz, plane_d
 static struct vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}};
 static uint32_t triangles[][3] = {{0, 1, 1}, {0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
 static uint32_t faces[] = {0, 0, 0, 1}, own_faces[] = {0, 1, 2, 3};
-static const struct solid merged = {.mesh = {corners, 5, triangles, faces, 4, 2}};
-static const struct solid plain = {.mesh = {corners, 5, triangles, own_faces, 4, 4}};
+static const struct solid merged = {.mesh = {.vertices = corners,
+                                             .vertex_count = 5,
+                                             .triangles = triangles,
+                                             .faces = faces,
+                                             .triangle_count = 4,
+                                             .face_count = 2}};
+static const struct solid plain = {.mesh = {.vertices = corners,
+                                            .vertex_count = 5,
+                                            .triangles = triangles,
+                                            .faces = own_faces,
+                                            .triangle_count = 4,
+                                            .face_count = 4}};
 
 static struct leaf place(const struct solid *solid, struct affine to_world)
 {
