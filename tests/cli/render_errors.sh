@@ -1,14 +1,6 @@
 # render_errors.sh PROGRAM SOURCE - wrong use and bad input: one clear line and the right exit code.
 render=$1
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failed=0
-
-fault() {
-    echo "FAILED: $*"
-    failed=1
-}
+. "$(dirname "$0")/scratch.sh"
 
 # expect CODE TEXT ARGUMENTS...: the exit code, one line on stderr that holds TEXT, no out.png.
 expect() {

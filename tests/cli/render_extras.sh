@@ -1,15 +1,7 @@
 # render_extras.sh PROGRAM SOURCE - samples, alpha, fitting, views, numbers per pixel, comparison.
 render=$1 source=$2
 command -v convert >/dev/null || exit 77
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failed=0
-
-fault() {
-    echo "FAILED: $*"
-    failed=1
-}
+. "$(dirname "$0")/scratch.sh"
 
 # pixel FILE X,Y: "r,g,b,a"
 pixel() {

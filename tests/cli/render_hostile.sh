@@ -1,16 +1,8 @@
 # render_hostile.sh PROGRAM SOURCE - models and files made to hurt: each ends soon, in little memory, with
 # lines that say why and the right exit code.
 render=$1
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+. "$(dirname "$0")/scratch.sh"
 ulimit -t 60
-failed=0
-
-fault() {
-    echo "FAILED: $*"
-    failed=1
-}
 
 # draws CODE TEXT: draws the model on standard input. TEXT stands in a message, and no message is
 # longer than a line of a terminal or three; with an empty TEXT any number up to the most is right.

@@ -1,15 +1,7 @@
 # render_picture.sh PROGRAM SOURCE - whole pictures against numbers measured on OpenSCAD's.
 render=$1
 command -v convert >/dev/null || exit 77
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failed=0
-
-fault() {
-    echo "FAILED: $*"
-    failed=1
-}
+. "$(dirname "$0")/scratch.sh"
 
 # colours FILE: "count r,g,b" of the ten most frequent colours
 colours() {

@@ -1,15 +1,7 @@
 # render_scad.sh PROGRAM SOURCE - .scad files: what reaches openscad, played by a script, and what it
 # says.
 render=$1
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failed=0
-
-fault() {
-    echo "FAILED: $*"
-    failed=1
-}
+. "$(dirname "$0")/scratch.sh"
 
 # Writes the arguments but its own -o and -d, and a model.
 cat >fake <<'END'

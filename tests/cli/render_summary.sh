@@ -1,15 +1,7 @@
 # render_summary.sh PROGRAM SOURCE - numbers as text and as JSON, the rule for make, and who gets
 # standard output.
 render=$1
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failed=0
-
-fault() {
-    echo "FAILED: $*"
-    failed=1
-}
+. "$(dirname "$0")/scratch.sh"
 
 refuse() {
     text=$1
