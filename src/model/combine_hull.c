@@ -127,6 +127,17 @@ static bool sum_parts(struct operands *o, struct mesh_parts *a, const struct mes
     return done;
 }
 
+// As in OpenSCAD, where a mesh with holes leaves nothing of the sum.
+static bool parts_are_closed(struct operands *o, const struct mesh_parts *parts)
+{
+    for (uint32_t i = 0; i < parts->count; i++)
+        if (!parts->items[i].convex && mesh_has_border(&parts->items[i].mesh)) {
+            builder_warn(o->b, o->args->node, "minkowski(): a mesh is not closed; left out");
+            return false;
+        }
+    return true;
+}
+
 static void sum_solids(struct operands *o, struct value *out)
 {
     struct mesh_parts sum = {0};
@@ -142,7 +153,8 @@ static void sum_solids(struct operands *o, struct value *out)
             out->term = o->values[i].term; // alone it stays what it is
             sum = next;
         } else {
-            done = done && sum_parts(o, &sum, &next);
+            done = done && (taken > 2 || parts_are_closed(o, &sum)) && parts_are_closed(o, &next) &&
+                   sum_parts(o, &sum, &next);
             mesh_parts_free(&next);
         }
     }
