@@ -5,6 +5,7 @@
 #include "io/read_3mf.h"
 #include "io/read_amf.h"
 #include "io/read_dxf.h"
+#include "io/read_nef3.h"
 #include "io/read_obj.h"
 #include "io/read_off.h"
 #include "io/read_stl.h"
@@ -146,12 +147,20 @@ static bool load_amf(const char *path, const char *data, size_t size, struct mes
     return read_amf(path, data, size, out, err);
 }
 
+static bool load_nef3(const char *path, const char *data, size_t size, struct mesh *out,
+                      struct messages *messages, struct error *err)
+{
+    (void)messages;
+    return read_nef3(path, data, size, out, err);
+}
+
 static const struct {
     const char *extension;
     bool (*read)(const char *path, const char *data, size_t size, struct mesh *out,
                  struct messages *messages, struct error *err);
 } meshes[] = {
-    {"stl", load_stl}, {"off", read_off}, {"obj", read_obj}, {"amf", load_amf}, {"3mf", load_3mf},
+    {"stl", load_stl}, {"off", read_off}, {"obj", read_obj},
+    {"amf", load_amf}, {"3mf", load_3mf}, {"nef3", load_nef3},
 };
 
 static uint32_t mesh_format(const char *path)

@@ -119,7 +119,7 @@ import() {
     esac | draws 0 "$text"
     rm -f "$file"
 }
-for file in a.stl a.off a.amf a.obj a.3mf a.dxf a.svg a.png a.dat; do
+for file in a.stl a.off a.amf a.obj a.3mf a.nef3 a.dxf a.svg a.png a.dat; do
     head -c 1000 /dev/zero | import $file ''
     repeat 100 'solid 1e999 <x> ' | import $file ''
     : | import $file ''
@@ -127,6 +127,8 @@ done
 { repeat 80 x && printf '\377\377\377\177' && repeat 50 x; } | import a.stl 'a.stl'
 echo 'OFF 1000000000 1000000000 0' | import a.off 'a.off'
 { printf 'OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 99999999999\n'; } | import a.off ''
+echo 'Selective Nef Complex standard vertices 4000000000 halfedges 4000000000 facets 4000000000
+    volumes 1 shalfedges 4000000000 shalfloops 0 sfaces 0' | import a.nef3 'a.nef3:2:'
 printf '\211PNG\r\n\032\n\0\0\0\rIHDR\177\377\377\377\177\377\377\377\10\0\0\0\0' | import a.png 'a.png'
 {
     echo '<?xml version="1.0"?><!DOCTYPE amf [<!ENTITY a0 "x">'
