@@ -155,7 +155,7 @@ void blend_both_sides(void *context, uint32_t worker, const struct span_block *b
                 if (s->enter_face != SURFACE_CAP || !d->layer->in_turn)
                     sides[count++] = (struct side){false, s->enter_leaf, s->enter_face, s->enter};
             }
-            if (count > 2 || d->layer->in_turn)
+            if (count > (d->layer->in_turn ? 1 : 2))
                 qsort(sides, count, sizeof *sides, d->layer->in_turn ? by_face : by_turn);
             size_t pixel = (size_t)y * (size_t)d->picture->width + (size_t)x;
             for (uint32_t k = 0; k < count; k++)

@@ -83,7 +83,8 @@ static void keep_spans(void *context, uint32_t worker, const struct span_block *
     uint32_t n = (uint32_t)((block->x1 - block->x0) * (block->y1 - block->y0));
     uint32_t first = block->first[0], count = block->first[n] - first, i = 0;
     struct span *copy = mem_alloc((count + 1) * sizeof *copy);
-    memcpy(copy, block->spans + first, count * sizeof *copy);
+    if (count)
+        memcpy(copy, block->spans + first, count * sizeof *copy);
     for (int y = block->y0; y < block->y1; y++)
         for (int x = block->x0; x < block->x1; x++, i++)
             w->pixels[(size_t)y * (size_t)w->width + (size_t)x] =
