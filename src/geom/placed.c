@@ -20,6 +20,8 @@ void mesh_placed(struct mesh *out, const struct mesh *m, const struct affine *a)
     out->vertices = copy(m->vertices, m->vertex_count * sizeof *m->vertices);
     out->triangles = copy(m->triangles, m->triangle_count * sizeof *m->triangles);
     out->faces = copy(m->faces, m->triangle_count * sizeof *m->faces);
+    if (m->turned)
+        out->turned = copy(m->turned, m->face_count * sizeof *m->turned);
     for (uint32_t i = 0; i < m->vertex_count; i++)
         out->vertices[i] = affine_point(a, m->vertices[i]);
     for (uint32_t i = 0; i < m->triangle_count && mirrored; i++) {

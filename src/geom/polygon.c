@@ -3,6 +3,8 @@
 
 #include "base/hash.h"
 #include "geom/outline.h"
+#include "geom/polygon_flips.h"
+#include "geom/polygon_gaps.h"
 
 #include <GL/glu.h>
 #include <stdlib.h>
@@ -20,7 +22,8 @@ struct polygon_cutter {
     uint32_t (*triangles)[3]; // its result
     uint32_t triangle_count, triangle_room;
     uint32_t pending[3], pending_count;
-    bool crossed; // itself: there are new vertices
+    bool bent;
+    bool crossed; // itself, or touched: there are new vertices
     bool failed;
 };
 
@@ -60,11 +63,13 @@ static void GLAPIENTRY on_edge_flag(GLboolean flag, void *user)
 static void GLAPIENTRY on_combine(GLdouble at[3], void *vertices[4], GLfloat weight[4], void **out,
                                   void *user)
 {
-    (void)vertices;
     (void)weight;
     struct polygon_cutter *c = user;
     c->crossed = true;
-    *out = number_in(mesh_add_vertex(c->mesh, (struct vec3){at[0], at[1], at[2]}));
+    if (c->bent && !vertices[2]) // corners in one place only seen from there
+        *out = vertices[0];
+    else
+        *out = number_in(mesh_add_vertex(c->mesh, (struct vec3){at[0], at[1], at[2]}));
 }
 
 static void GLAPIENTRY on_error(GLenum code, void *user)
@@ -157,44 +162,6 @@ static bool is_convex_quad(const struct polygon_cutter *c, struct vec3 normal)
     return true;
 }
 
-// The angle of a quad at one corner, in the plane of two axes.
-static double angle_at(const struct polygon_cutter *c, uint32_t at, struct vec3 axes)
-{
-    struct vec3 p = corner(c, at), a = vec3_sub(corner(c, (at + 1) % 4), p);
-    struct vec3 b = vec3_sub(corner(c, (at + 3) % 4), p);
-    a = (struct vec3){a.x * axes.x, a.y * axes.y, a.z * axes.z};
-    b = (struct vec3){b.x * axes.x, b.y * axes.y, b.z * axes.z};
-    double cosine = vec3_dot(vec3_normalized(a), vec3_normalized(b));
-    return acos(fmax(-1, fmin(1, cosine)));
-}
-
-// The diagonal of a bent quad decides its shape. OpenSCAD's tessellator takes the one that GLU
-// gives, unless the other one is the Delaunay diagonal by more than 0.01 radians, as seen along the
-// main axis of the normal.
-static void choose_diagonal(struct polygon_cutter *c, struct vec3 normal)
-{
-    double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
-    struct vec3 axes = {1, 1, 1};
-    if (x >= y && x >= z)
-        axes.x = 0;
-    else if (y >= z)
-        axes.y = 0;
-    else
-        axes.z = 0;
-    uint32_t apart = 0; // a corner that the diagonal does not touch
-    for (uint32_t i = 0; i < 4; i++) {
-        const uint32_t *t = c->triangles[0];
-        if (t[0] != c->corners[i] && t[1] != c->corners[i] && t[2] != c->corners[i])
-            apart = i;
-    }
-    if (angle_at(c, apart, axes) + angle_at(c, (apart + 2) % 4, axes) > M_PI + 0.01)
-        for (uint32_t k = 0; k < 2; k++) {
-            c->triangles[k][0] = c->corners[apart];
-            c->triangles[k][1] = c->corners[(apart + 1 + k) % 4];
-            c->triangles[k][2] = c->corners[(apart + 2 + k) % 4];
-        }
-}
-
 static void cut_fan(struct polygon_cutter *c)
 {
     array_reserve(&c->triangles, &c->triangle_room, c->corner_count);
@@ -262,15 +229,9 @@ static bool cut_large(struct polygon_cutter *c, struct vec3 normal)
     return true;
 }
 
-static void cut_any(struct polygon_cutter *c, struct vec3 unit_normal)
+static void tessellate(struct polygon_cutter *c, struct vec3 normal)
 {
-    if (c->corner_count > CORNERS_MANY && cut_large(c, unit_normal))
-        return;
-    if (!c->tess || crosses_too_often(c, unit_normal)) {
-        c->failed = true;
-        return;
-    }
-    gluTessNormal(c->tess, unit_normal.x, unit_normal.y, unit_normal.z);
+    gluTessNormal(c->tess, normal.x, normal.y, normal.z);
     gluTessBeginPolygon(c->tess, c);
     gluTessBeginContour(c->tess);
     for (uint32_t i = 0; i < c->corner_count; i++) {
@@ -282,12 +243,44 @@ static void cut_any(struct polygon_cutter *c, struct vec3 unit_normal)
     gluTessEndPolygon(c->tess);
 }
 
+// The diagonals of a bent polygon decide its shape: they are OpenSCAD's.
+static void cut_bent(struct polygon_cutter *c)
+{
+    struct mesh *m = &c->mesh->mesh;
+    uint32_t first_new = m->vertex_count;
+    double sign;
+    uint32_t axis = polygon_axis(m->vertices, c->corners, c->corner_count, &sign);
+    c->bent = true;
+    tessellate(c, (struct vec3){axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0});
+    polygon_flip(m->vertices, axis, c->triangles, c->triangle_count);
+    // Corners between others, seen from there, are in no triangle.
+    if (c->failed || (!c->crossed && c->triangle_count + 2 == c->corner_count))
+        return;
+    array_reserve(&c->triangles, &c->triangle_room,
+                  4 * (size_t)c->triangle_count + c->corner_count);
+    polygon_fill_gaps(m->vertices, c->corners, c->corner_count, first_new, c->triangles,
+                      &c->triangle_count);
+    m->vertex_count = first_new;
+}
+
+static void cut_any(struct polygon_cutter *c, struct vec3 unit_normal, bool flat)
+{
+    if (c->corner_count > CORNERS_MANY && cut_large(c, unit_normal))
+        return;
+    if (!c->tess || crosses_too_often(c, unit_normal))
+        c->failed = true;
+    else if (flat)
+        tessellate(c, unit_normal);
+    else
+        cut_bent(c);
+}
+
 bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_t *corners,
                  uint32_t count)
 {
     c->mesh = b;
     c->triangle_count = 0;
-    c->crossed = c->failed = false;
+    c->bent = c->crossed = c->failed = false;
     collect_corners(c, corners, count);
     if (c->corner_count < 3)
         return false;
@@ -296,19 +289,13 @@ bool polygon_cut(struct polygon_cutter *c, struct mesh_builder *b, const uint32_
     // Polygons without area are kept as they are: they close the seams between their neighbours.
     bool area = vec3_dot(normal, normal) > 0.5; // false also for NaN
     bool flat = !area || is_flat(c, normal);
-    bool quad = area && c->corner_count == 4 && is_convex_quad(c, normal);
-    if (c->corner_count == 3 || !area || (quad && flat))
+    if (c->corner_count == 3 || !area ||
+        (flat && c->corner_count == 4 && is_convex_quad(c, normal)))
         cut_fan(c);
     else
-        cut_any(c, normal);
+        cut_any(c, normal, flat);
     if (c->failed || !c->triangle_count)
         return false;
-    if (quad && !flat && c->triangle_count == 2)
-        choose_diagonal(c, normal);
-    if (c->corner_count == 4 && !flat && c->crossed) { // a bend so strong that sides only seem to
-        c->triangle_count = 0;                         // cross: its neighbours know no new vertex
-        cut_fan(c);
-    }
 
     uint32_t face = 0;
     for (uint32_t t = 0; t < c->triangle_count; t++) {

@@ -1,5 +1,6 @@
 // test_orient.c - meshes with faces that are turned the wrong way.
 #include "geom/orient.h"
+#include "geom/placed.h"
 #include "unit.h"
 
 // A tetrahedron with a corner at `at`; the sign of `size` is that of its volume.
@@ -112,12 +113,31 @@ static void one_sided_meshes_stay(void **state)
     mesh_free(&b.mesh);
 }
 
+static void placed_meshes_have_their_own_marks(void **state)
+{
+    (void)state;
+    struct mesh_builder b = {0};
+    add_tetrahedron(&b, 0, 6);
+    turn(&b.mesh, 1);
+    mesh_orient(&b.mesh);
+    struct mesh placed;
+    mesh_placed(&placed, &b.mesh, &AFFINE_IDENTITY);
+    assert_ptr_not_equal(placed.turned, b.mesh.turned);
+    mesh_free(&b.mesh);
+    for (uint32_t i = 0; i < 4; i++)
+        assert_int_equal(placed.turned[i], i == 1);
+    mesh_free(&placed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(turned_faces_are_turned_back),   cmocka_unit_test(what_agrees_stays),
-        cmocka_unit_test(repeated_triangles_are_dropped), cmocka_unit_test(open_meshes_stay),
+        cmocka_unit_test(turned_faces_are_turned_back),
+        cmocka_unit_test(what_agrees_stays),
+        cmocka_unit_test(repeated_triangles_are_dropped),
+        cmocka_unit_test(open_meshes_stay),
         cmocka_unit_test(one_sided_meshes_stay),
+        cmocka_unit_test(placed_meshes_have_their_own_marks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

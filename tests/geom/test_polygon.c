@@ -67,21 +67,52 @@ static void crossings_become_vertices(void **state)
     mesh_free(&b.mesh);
 }
 
-static void bent_quads_take_the_better_diagonal(void **state)
+// The number of the triangle, written from any of its corners, or -1.
+static int find_triangle(const struct mesh *m, const uint32_t t[3])
+{
+    for (uint32_t i = 0; i < m->triangle_count; i++)
+        for (int k = 0; k < 3; k++)
+            if (m->triangles[i][k] == t[0] && m->triangles[i][(k + 1) % 3] == t[1] &&
+                m->triangles[i][(k + 2) % 3] == t[2])
+                return (int)i;
+    return -1;
+}
+
+// Polygons and the triangles that OpenSCAD 2021.01 exports of them.
+static const struct {
+    struct vec3 points[8];
+    uint32_t count, triangles[6][3];
+} exported[] = {
+    {{{0, 0, 0}, {4, 0, 1}, {4.5, 1, 0}, {0.5, 1, 1}}, 4, {{3, 0, 1}, {3, 1, 2}}},
+    {{{0, 0, 0}, {4, 0, 1}, {4.5, 3, 0}, {0.5, 1, 1}}, 4, {{3, 1, 2}, {1, 3, 0}}},
+    {{{0, 0, 0}, {4, 0, 1}, {3, 1, 2}, {2, 4, 0}}, 4, {{2, 0, 1}, {0, 2, 3}}},
+    {{{0, 0, 0}, {1, 4, 0}, {1, 1, 4}, {2, -1, 3}}, 4, {{2, 0, 1}, {0, 2, 3}}},
+    {{{0, 0, 0}, {3, 0, 2}, {5, 2, 0}, {3, 4, 2}, {0, 3, 0}, {1, 1.5, 1}},
+     6,
+     {{3, 1, 2}, {3, 5, 1}, {5, 3, 4}, {1, 5, 0}}},
+    {{{0, 0, 0}, {0, 3, 2}, {1, 5, 2}, {2, 4, 3}, {0, 0, 5}, {1, 1, 3}, {2, 1, 2}},
+     7,
+     {{3, 1, 2}, {3, 5, 1}, {5, 3, 4}, {6, 1, 5}, {1, 6, 0}}},
+    {{{5, 0, 0}, {4, 1, 3}, {0, 1, 5}, {-3, 2, 3}, {-5, 1, 0}, {-3, 0, -4}, {0, 2, -5}, {4, 0, -3}},
+     8,
+     {{3, 1, 2}, {5, 3, 4}, {3, 0, 1}, {3, 7, 0}, {6, 3, 5}, {3, 6, 7}}},
+    // A corner between two others, seen along the normal's main axis.
+    {{{0, -20, 20}, {10, -20, 20}, {10, 10, 0}, {10, 0, 0}}, 4, {{0, 1, 3}, {1, 2, 3}}},
+};
+
+static void bent_polygons_take_the_diagonals_of_openscad(void **state)
 {
     (void)state;
-    const struct vec3 bent[] = {{0, 0, 0}, {4, 0, 1}, {4.5, 1, 0}, {0.5, 1, 1}};
-    struct mesh_builder b;
-    assert_true(cut(&b, bent, 4));
-    assert_int_equal(b.mesh.triangle_count, 2);
-    assert_int_equal(b.mesh.face_count, 2);
-    for (int t = 0; t < 2; t++) { // both use the short diagonal 1-3
-        bool has[4] = {0};
-        for (int i = 0; i < 3; i++)
-            has[b.mesh.triangles[t][i]] = true;
-        assert_true(has[1] && has[3]);
+    for (size_t i = 0; i < sizeof exported / sizeof *exported; i++) {
+        struct mesh_builder b;
+        uint32_t n = exported[i].count;
+        assert_true(cut(&b, exported[i].points, n));
+        assert_int_equal(b.mesh.triangle_count, n - 2);
+        assert_int_equal(b.mesh.face_count, n - 2);
+        for (uint32_t t = 0; t < n - 2; t++)
+            assert_int_not_equal(find_triangle(&b.mesh, exported[i].triangles[t]), -1);
+        mesh_free(&b.mesh);
     }
-    mesh_free(&b.mesh);
 }
 
 static void rounded_numbers_stay_one_face(void **state)
@@ -132,7 +163,8 @@ static void nonsense_is_refused_or_harmless(void **state)
     for (int round = 0; round < 50; round++) {
         for (int i = 0; i < 60; i++) {
             seed = seed * 6364136223846793005u + 1442695040888963407u;
-            noise[i] = (struct vec3){(double)(seed >> 60), (double)(seed >> 56 & 15), 0};
+            double z = round % 2 ? (double)(seed >> 52 & 3) : 0;
+            noise[i] = (struct vec3){(double)(seed >> 60), (double)(seed >> 56 & 15), z};
         }
         cut(&b, noise, 60);
         mesh_weld(&b.mesh);
@@ -154,6 +186,34 @@ static void strongly_bent_quads_keep_their_corners(void **state)
     mesh_weld(&b.mesh);
     assert_int_equal(b.mesh.vertex_count, 4);
     mesh_free(&b.mesh);
+}
+
+// Every side of the polygon is one of a triangle, in its direction, and all others meet.
+static void bent_polygons_close_their_seams(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    for (int round = 0; round < 200; round++) {
+        struct vec3 p[12];
+        for (int i = 0; i < 12; i++) {
+            double angle = 2 * M_PI * i / 12, r = 1 + random_unit(&seed);
+            p[i] = (struct vec3){r * cos(angle), r * sin(angle), 4 * random_unit(&seed)};
+        }
+        struct mesh_builder b;
+        assert_true(cut(&b, p, 12));
+        assert_int_equal(b.mesh.vertex_count, 12);
+        int balance[12][12] = {0};
+        for (uint32_t t = 0; t < b.mesh.triangle_count; t++)
+            for (int k = 0; k < 3; k++) {
+                uint32_t from = b.mesh.triangles[t][k], to = b.mesh.triangles[t][(k + 1) % 3];
+                balance[from][to]++;
+                balance[to][from]--;
+            }
+        for (int i = 0; i < 12; i++)
+            for (int k = 0; k < 12; k++)
+                assert_int_equal(balance[i][k], (k == (i + 1) % 12) - (i == (k + 1) % 12));
+        mesh_free(&b.mesh);
+    }
 }
 
 static void tangles_are_refused(void **state)
@@ -222,10 +282,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(concave_polygon_keeps_its_area),
         cmocka_unit_test(crossings_become_vertices),
-        cmocka_unit_test(bent_quads_take_the_better_diagonal),
+        cmocka_unit_test(bent_polygons_take_the_diagonals_of_openscad),
         cmocka_unit_test(rounded_numbers_stay_one_face),
         cmocka_unit_test(corners_on_an_edge_are_kept),
         cmocka_unit_test(strongly_bent_quads_keep_their_corners),
+        cmocka_unit_test(bent_polygons_close_their_seams),
         cmocka_unit_test(tangles_are_refused),
         cmocka_unit_test(many_corners_are_quick),
         cmocka_unit_test(nonsense_is_refused_or_harmless),
