@@ -40,22 +40,6 @@ static bool is_part(const struct term *t)
     return t->op == TERM_LEAF || t->rendered;
 }
 
-// As OpenSCAD has it: whole leaves, flat ones without thickness; of a difference that of the left.
-static struct box box_of_term(const struct expansion *e, const struct term *t)
-{
-    if (t->op == TERM_LEAF) {
-        const struct leaf *leaf = &e->s->leaves[t->left];
-        struct box box = leaf->solid ? leaf->solid->bounds : BOX_EMPTY;
-        if (leaf->flat)
-            box.min.z = box.max.z = 0;
-        return box_transformed(box, &leaf->to_world);
-    }
-    struct box left = e->boxes[t->left], right = e->boxes[t->right];
-    return t->op == TERM_UNION          ? box_union(left, right)
-           : t->op == TERM_INTERSECTION ? box_intersection(left, right)
-                                        : left;
-}
-
 static bool meet(struct box a, struct box b)
 {
     return !box_is_empty(box_intersection(a, b));
@@ -232,7 +216,7 @@ void products_parts(const struct scene *s, uint32_t term, struct part **parts, u
     e.boxes = mem_alloc((s->term_count + 1) * sizeof *e.boxes);
     e.parts = mem_zalloc((s->term_count + 1) * sizeof *e.parts);
     for (uint32_t i = 0; i < s->term_count; i++) // operands come before what is made of them
-        e.boxes[i] = box_of_term(&e, &s->terms[i]);
+        e.boxes[i] = term_box(s, i, e.boxes);
     if (term < TERM_EMPTY && !expand(&e, term))
         place_rest(&e, term);
     collect(&e, parts, count);

@@ -84,9 +84,9 @@ static uint32_t fold_union(struct scene *s, uint32_t left, uint32_t right)
     return left_marked ? right : left;
 }
 
-// As OpenSCAD has it: flat shapes without thickness, of a difference the box of the left operand.
-static struct box find_box(const struct scene *s, const struct term *t)
+struct box term_box(const struct scene *s, uint32_t term, const struct box *boxes)
 {
+    const struct term *t = &s->terms[term];
     if (t->op == TERM_LEAF) {
         const struct leaf *leaf = &s->leaves[t->left];
         struct box box = leaf->solid ? leaf->solid->bounds : BOX_EMPTY;
@@ -94,7 +94,7 @@ static struct box find_box(const struct scene *s, const struct term *t)
             box.min.z = box.max.z = 0;
         return box_transformed(box, &leaf->to_world);
     }
-    struct box left = s->boxes[t->left], right = s->boxes[t->right];
+    struct box left = boxes[t->left], right = boxes[t->right];
     return t->op == TERM_UNION          ? box_union(left, right)
            : t->op == TERM_INTERSECTION ? box_intersection(left, right)
                                         : left;
@@ -107,7 +107,7 @@ static bool boxes_meet(struct scene *s, uint32_t left, uint32_t right)
         return false;
     array_reserve(&s->boxes, &s->box_room, (size_t)last + 1);
     for (; s->box_count <= last; s->box_count++) // operands come before what is made of them
-        s->boxes[s->box_count] = find_box(s, &s->terms[s->box_count]);
+        s->boxes[s->box_count] = term_box(s, s->box_count, s->boxes);
     return !box_is_empty(box_intersection(s->boxes[left], s->boxes[right]));
 }
 

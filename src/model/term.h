@@ -47,4 +47,8 @@ void scene_show_apart(struct scene *s, uint32_t term); // lists a marked term, t
 // Copies a term of another scene, unmarked, with all below it. Returns the copy.
 uint32_t scene_add(struct scene *s, const struct scene *from, uint32_t term);
 
+// The box that OpenSCAD prunes a term by, given those of its operands at their numbers in boxes:
+// flat shapes have no thickness, a difference has the box of its left operand.
+struct box term_box(const struct scene *s, uint32_t term, const struct box *boxes);
+
 void scene_free(struct scene *s); // leaves {0}
