@@ -22,7 +22,7 @@ struct stage {
     const struct measure_options *options;
     struct result *result;
     struct model model;
-    struct cpu_device *device;
+    struct device *device;
     struct shader shader;
     struct picture picture;
     struct render_settings settings;
@@ -144,7 +144,8 @@ static double draw_spans(struct stage *s, uint32_t view, struct render_stats *su
     double start = clock_seconds();
     for (uint32_t i = 0; i < s->model.body_count; i++) {
         struct render_stats stats = {0};
-        cpu_spans(s->device, &s->model.bodies[i], &rays, &s->settings, count_spans, counts, &stats);
+        device_spans(s->device, &s->model.bodies[i], &rays, &s->settings, count_spans, counts,
+                     &stats);
         sum->fragments += stats.fragments;
         sum->misses += stats.misses;
         sum->seconds_draw += stats.seconds_draw;
@@ -275,7 +276,7 @@ bool measure_scene(struct result *out, const char *csg, const struct measure_opt
     }
     picture_free(&s.picture);
     shader_free(&s.shader);
-    cpu_device_delete(s.device);
+    device_delete(s.device);
     model_free(&s.model);
     return ok;
 }

@@ -30,7 +30,7 @@ void shot_free(struct shot *s)
     *s = (struct shot){0};
 }
 
-static void draw(struct shot *s, const struct drawing_job *job, struct cpu_device *device,
+static void draw(struct shot *s, const struct drawing_job *job, struct device *device,
                  struct picture *picture)
 {
     loaded_release(s->job.loaded);
@@ -59,7 +59,7 @@ static void exchange(struct shot *a, struct shot *b)
 static void run(void *context)
 {
     struct drawing *d = context;
-    struct cpu_device *device = cpu_device_new();
+    struct device *device = cpu_device_new();
     struct picture picture = {0};
     struct shot work = {0};
     for (;;) {
@@ -91,7 +91,7 @@ static void run(void *context)
     }
     shot_free(&work);
     picture_free(&picture);
-    cpu_device_delete(device);
+    device_delete(device);
 }
 
 struct drawing *drawing_start(void (*done)(void *context), void *context, struct error *err)

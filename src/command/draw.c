@@ -164,8 +164,7 @@ bool drawn_make(struct drawn *out, const struct request *r, const struct model *
 
 void drawn_free(struct drawn *d)
 {
-    if (d->device)
-        cpu_device_delete(d->device);
+    device_delete(d->device);
     layers_delete(d->layers);
     facets_delete(d->facets);
     shader_free(&d->shader);

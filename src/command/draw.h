@@ -8,7 +8,7 @@
 struct drawn { // {0} is valid
     const struct request *request;
     const struct model *model;
-    struct cpu_device *device;
+    struct device *device;
     struct shader shader;
     struct layers *layers;
     struct facets *facets; // when edges show

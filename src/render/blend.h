@@ -29,7 +29,7 @@ void blend_surface(const struct drawing *d, struct shade_cache *cache, size_t pi
 // that the device found in front have become owners before.
 void blend_repeated(const struct drawing *d);
 
-// Sinks of cpu_spans, with a struct drawing as their context.
+// Sinks of device_spans, with a struct drawing as their context.
 // What stands alone: its back faces, then its front faces, each in the order of their numbers, or
 // all in that order.
 void blend_both_sides(void *context, uint32_t worker, const struct span_block *block);

@@ -71,21 +71,40 @@ static inline void render_stats_add(struct render_stats *sum, const struct rende
 }
 
 // The device on the processor: any number of threads, bit-identical results.
-struct cpu_device;
-struct cpu_device *cpu_device_new(void);
-void cpu_device_delete(struct cpu_device *d);
+struct device;
+struct device *cpu_device_new(void);
+
+void device_delete(struct device *d); // NULL: nothing to do
 
 // Fills *out (arrays of width * height, owned by the caller). `drawn`, unless NULL, is called for
 // rectangles that cover the picture, each pixel once, when their surfaces are there, from several
 // threads at once; `nothing` says that no pixel of it has a surface.
-void cpu_first_surface(struct cpu_device *d, const struct body *body, const struct rays *rays,
-                       const struct render_settings *settings, struct surface_image *out,
-                       void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
-                       void *context, struct render_stats *stats);
+void device_first_surface(struct device *d, const struct body *body, const struct rays *rays,
+                          const struct render_settings *settings, struct surface_image *out,
+                          void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                          void *context, struct render_stats *stats);
 
 // Calls `sink` for blocks that cover the picture, each pixel once, from several threads at once
 // (worker numbers below parallel_workers(threads)).
-void cpu_spans(struct cpu_device *d, const struct body *body, const struct rays *rays,
-               const struct render_settings *settings,
-               void (*sink)(void *context, uint32_t worker, const struct span_block *block),
-               void *context, struct render_stats *stats);
+void device_spans(struct device *d, const struct body *body, const struct rays *rays,
+                  const struct render_settings *settings,
+                  void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+                  void *context, struct render_stats *stats);
+
+// What makes a device: the functions above, with the same contracts. Each device begins with a
+// struct device.
+struct device_kind {
+    void (*first_surface)(struct device *d, const struct body *body, const struct rays *rays,
+                          const struct render_settings *settings, struct surface_image *out,
+                          void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                          void *context, struct render_stats *stats);
+    void (*spans)(struct device *d, const struct body *body, const struct rays *rays,
+                  const struct render_settings *settings,
+                  void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+                  void *context, struct render_stats *stats);
+    void (*delete)(struct device *d);
+};
+
+struct device {
+    const struct device_kind *kind;
+};

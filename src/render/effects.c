@@ -180,7 +180,7 @@ static void reserve(struct effects *e, int width, int height)
     e->height = height;
 }
 
-void effects_draw(struct effects *e, struct cpu_device *device, const struct shader *shader,
+void effects_draw(struct effects *e, struct device *device, const struct shader *shader,
                   const struct rays *rays, const struct render_settings *settings, uint32_t which,
                   uint32_t sample, uint32_t samples)
 {

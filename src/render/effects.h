@@ -17,7 +17,7 @@ struct effects { // {0} is valid; buffers are kept from drawing to drawing
 
 // Draws the map of the model and fills `light`. One of several pictures that will be averaged takes
 // its share of directions: `sample` of `samples`.
-void effects_draw(struct effects *e, struct cpu_device *device, const struct shader *shader,
+void effects_draw(struct effects *e, struct device *device, const struct shader *shader,
                   const struct rays *rays, const struct render_settings *settings, uint32_t which,
                   uint32_t sample, uint32_t samples);
 void effects_free(struct effects *e); // leaves {0}

@@ -108,7 +108,7 @@ struct beam {
 
 // Depths count from the bound of the side inwards.
 struct search {
-    struct cpu_device *device;
+    struct device *device;
     const struct body *body;
     const struct normals *normals;
     struct render_settings settings;
@@ -142,7 +142,7 @@ static void draw(struct search *s, const struct window *w)
     r.origin = vec3_add(axis_vector(s->axis + 1, w->low[0] + w->pixel[0] / 2),
                         axis_vector(s->axis + 2, w->low[1] + w->pixel[1] / 2));
     r.origin = vec3_add(r.origin, axis_vector(s->axis, s->high ? s->at + margin : s->at - margin));
-    cpu_first_surface(s->device, s->body, &r, &s->settings, &s->image, NULL, NULL, &stats);
+    device_first_surface(s->device, s->body, &r, &s->settings, &s->image, NULL, NULL, &stats);
 }
 
 // How much nearer the surface of pixel i may come within a pixel in each direction.
@@ -334,7 +334,7 @@ static double snapped(const struct body *body, int axis, double at, double toler
     return found;
 }
 
-struct box extent_find(struct cpu_device *d, const struct model *m,
+struct box extent_find(struct device *d, const struct model *m,
                        const struct render_settings *settings)
 {
     const struct body *body = &m->bodies[0];

@@ -11,5 +11,5 @@
 #define EXTENT_TOLERANCE 1e-6
 enum { EXTENT_PIXELS = 192 };
 
-struct box extent_find(struct cpu_device *d, const struct model *m,
+struct box extent_find(struct device *d, const struct model *m,
                        const struct render_settings *settings);

@@ -145,7 +145,7 @@ static void move(struct camera *c, const struct rays *rays, const struct frame *
     c->centre = vec3_add(eye.place, vec3_scale(eye.ahead, middle));
 }
 
-void camera_fit(struct camera *c, int width, int height, double margin, struct cpu_device *device,
+void camera_fit(struct camera *c, int width, int height, double margin, struct device *device,
                 const struct model *model, const struct render_settings *settings)
 {
     int longer = width > height ? width : height;

@@ -154,8 +154,8 @@ static void aim(struct lattice_run *r, double middle, double width, double heigh
 static void draw(struct lattice_run *r, struct lattice_sums *out)
 {
     struct render_stats stats = {0};
-    cpu_spans(r->target->device, r->target->body, &r->rays, &r->target->settings, take_block, r,
-              &stats);
+    device_spans(r->target->device, r->target->body, &r->rays, &r->target->settings, take_block, r,
+                 &stats);
     out->effort += (double)r->rays.width * r->rays.height / 8 + (double)stats.fragments;
     out->open_rays += stats.open_rays;
 }

@@ -6,7 +6,7 @@
 // What lattices are thrown at. `seen` (per leaf of the body) is set for leaves that a ray enters or
 // leaves the solid through.
 struct lattice_target {
-    struct cpu_device *device;
+    struct device *device;
     const struct body *body;
     const struct normals *normals;
     struct render_settings settings;

@@ -58,7 +58,7 @@ static void merge_rect(void *context, struct pixel_rect rect, bool nothing)
     }
 }
 
-void map_draw(struct map *m, struct cpu_device *device, const struct model *model,
+void map_draw(struct map *m, struct device *device, const struct model *model,
               const struct rays *rays, const struct render_settings *settings,
               struct render_stats *stats)
 {
@@ -79,8 +79,8 @@ void map_draw(struct map *m, struct cpu_device *device, const struct model *mode
         struct render_stats one = {0};
         if (b)
             reserve(&m->scratch, rays->width, rays->height);
-        cpu_first_surface(device, &model->bodies[b], rays, settings, b ? &m->scratch : &m->surface,
-                          b ? merge_rect : NULL, &l, &one);
+        device_first_surface(device, &model->bodies[b], rays, settings,
+                             b ? &m->scratch : &m->surface, b ? merge_rect : NULL, &l, &one);
         render_stats_add(stats, &one);
     }
 }

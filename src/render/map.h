@@ -11,7 +11,7 @@ struct map { // {0} is valid; buffers are kept from drawing to drawing
     struct surface_image scratch; // of one body, when there are several
 };
 
-void map_draw(struct map *m, struct cpu_device *device, const struct model *model,
+void map_draw(struct map *m, struct device *device, const struct model *model,
               const struct rays *rays, const struct render_settings *settings,
               struct render_stats *stats);
 void map_free(struct map *m); // leaves {0}

@@ -178,7 +178,7 @@ static bool is_exact(struct measured m, double accuracy)
     return m.bound <= accuracy * m.value;
 }
 
-void measure_model(struct measure *out, struct cpu_device *device, const struct model *model,
+void measure_model(struct measure *out, struct device *device, const struct model *model,
                    const struct render_settings *settings, double accuracy)
 {
     const struct body *body = &model->bodies[0];

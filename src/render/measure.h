@@ -41,7 +41,7 @@ struct measure {
 };
 
 // Of the model's main body. `accuracy` is relative, at least 1e-6.
-void measure_model(struct measure *out, struct cpu_device *device, const struct model *model,
+void measure_model(struct measure *out, struct device *device, const struct model *model,
                    const struct render_settings *settings, double accuracy);
 
 // In g, of a material with `density` g/cm^3.

@@ -149,9 +149,9 @@ static void shade_rect(void *context, struct pixel_rect rect, bool nothing)
     }
 }
 
-static void draw_layers(struct cpu_device *device, struct drawing *d,
-                        const struct body_layers *layers, const struct rays *rays,
-                        const struct render_settings *settings, struct render_stats *stats)
+static void draw_layers(struct device *device, struct drawing *d, const struct body_layers *layers,
+                        const struct rays *rays, const struct render_settings *settings,
+                        struct render_stats *stats)
 {
     d->surface = &d->picture->scratch;
     for (uint32_t i = 0; i < layers->count; i++) {
@@ -161,9 +161,10 @@ static void draw_layers(struct cpu_device *device, struct drawing *d,
         there.sparse = true;
         d->layer = layer;
         if (layer->both_sides)
-            cpu_spans(device, &layer->body, rays, &there, blend_both_sides, d, &one);
+            device_spans(device, &layer->body, rays, &there, blend_both_sides, d, &one);
         else
-            cpu_first_surface(device, &layer->body, rays, &there, d->surface, shade_rect, d, &one);
+            device_first_surface(device, &layer->body, rays, &there, d->surface, shade_rect, d,
+                                 &one);
         if (layer->repeats)
             blend_repeated(d);
         render_stats_add(stats, &one);
@@ -187,7 +188,7 @@ static void begin_owners(const struct drawing *d)
     }
 }
 
-void picture_draw(struct picture *p, struct cpu_device *device, const struct shader *shader,
+void picture_draw(struct picture *p, struct device *device, const struct shader *shader,
                   const struct rays *rays, const struct render_settings *settings,
                   struct render_stats *stats)
 {
@@ -224,11 +225,11 @@ void picture_draw(struct picture *p, struct cpu_device *device, const struct sha
         if (owned && b == 0 && !d.first)
             begin_owners(&d);
         if (d.shading->opaque && !(around && main))
-            cpu_first_surface(device, body, rays, settings, d.surface, shade_rect, &d, &one);
+            device_first_surface(device, body, rays, settings, d.surface, shade_rect, &d, &one);
         else if (layers)
             draw_layers(device, &d, &layers->bodies[b], rays, settings, stats);
         else
-            cpu_spans(device, body, rays, settings, blend_sorted, &d, &one);
+            device_spans(device, body, rays, settings, blend_sorted, &d, &one);
         if (owned && d.first)
             begin_owners(&d);
         render_stats_add(stats, &one);

@@ -25,7 +25,7 @@ struct picture { // {0} is valid; buffers are kept from drawing to drawing
 };
 
 // `settings->epsilon` is also the depth within which a highlight counts as lying on the model.
-void picture_draw(struct picture *p, struct cpu_device *device, const struct shader *shader,
+void picture_draw(struct picture *p, struct device *device, const struct shader *shader,
                   const struct rays *rays, const struct render_settings *settings,
                   struct render_stats *stats);
 void picture_free(struct picture *p); // leaves {0}

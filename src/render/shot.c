@@ -105,7 +105,7 @@ static void finish_row(void *context, uint32_t y, uint32_t worker)
 }
 
 // One drawing into s->picture.
-static void draw(struct shot *s, struct cpu_device *device, const struct shader *shader,
+static void draw(struct shot *s, struct device *device, const struct shader *shader,
                  const struct rays *rays, const struct render_settings *settings,
                  const struct shot_style *style, struct render_stats *stats)
 {
@@ -125,7 +125,7 @@ static struct scheme plain(const struct scheme *from, uint8_t grey)
 }
 
 // All drawings of a picture that is averaged or transparent.
-static void draw_samples(struct shot *s, struct cpu_device *device, const struct shader *shader,
+static void draw_samples(struct shot *s, struct device *device, const struct shader *shader,
                          const struct rays *rays, const struct render_settings *settings,
                          const struct shot_style *style, struct render_stats *stats)
 {
@@ -153,7 +153,7 @@ static void draw_samples(struct shot *s, struct cpu_device *device, const struct
     s->pixels = s->finished;
 }
 
-void shot_draw(struct shot *s, struct cpu_device *device, const struct shader *shader,
+void shot_draw(struct shot *s, struct device *device, const struct shader *shader,
                const struct rays *rays, const struct render_settings *settings,
                const struct shot_style *style, struct render_stats *stats)
 {

@@ -25,7 +25,7 @@ struct shot { // {0} is valid; buffers are kept from shot to shot
 
 // Averages 8-bit values as they are stored, without gamma: what OpenSCAD, its frame buffers and
 // viewers that scale pictures do, so that one drawn large and made smaller looks the same.
-void shot_draw(struct shot *s, struct cpu_device *device, const struct shader *shader,
+void shot_draw(struct shot *s, struct device *device, const struct shader *shader,
                const struct rays *rays, const struct render_settings *settings,
                const struct shot_style *style, struct render_stats *stats);
 void shot_free(struct shot *s); // leaves {0}

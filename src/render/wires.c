@@ -398,7 +398,7 @@ static void draw_band(const struct wires *w, int rows, bool points)
     }
 }
 
-void wires_draw(const struct canvas *c, struct cpu_device *device, const struct model *m,
+void wires_draw(const struct canvas *c, struct device *device, const struct model *m,
                 const struct scheme *scheme, const struct facets *facets, const struct rays *rays,
                 const struct render_settings *settings)
 {
@@ -423,7 +423,7 @@ void wires_draw(const struct canvas *c, struct cpu_device *device, const struct 
             struct vec3 down = vec3_scale(rays->step_y, w.band);
             *(rays->orthographic ? &part.origin : &part.forward) =
                 vec3_add(rays->orthographic ? rays->origin : rays->forward, down);
-            cpu_spans(device, w.body, &part, settings, keep_spans, &w, &stats);
+            device_spans(device, w.body, &part, settings, keep_spans, &w, &stats);
             draw_band(&w, rows, points);
             for (size_t i = 0; i < room; i++)
                 free(w.pixels[i].block);

@@ -9,6 +9,6 @@
 
 // Of the first body of the model: hidden ones too, as far as the depths of the canvas let them
 // show.
-void wires_draw(const struct canvas *c, struct cpu_device *device, const struct model *m,
+void wires_draw(const struct canvas *c, struct device *device, const struct model *m,
                 const struct scheme *scheme, const struct facets *facets, const struct rays *rays,
                 const struct render_settings *settings);

@@ -69,10 +69,10 @@ void dexels_of_body(struct dexels *out, const struct body *body, const struct ra
 {
     const struct render_settings settings = {.epsilon = epsilon, .threads = 1};
     struct render_stats stats = {0};
-    struct cpu_device *device = cpu_device_new();
+    struct device *device = cpu_device_new();
     dexels_init(out);
-    cpu_spans(device, body, rays, &settings, take_spans, out, &stats);
-    cpu_device_delete(device);
+    device_spans(device, body, rays, &settings, take_spans, out, &stats);
+    device_delete(device);
 }
 
 // Of a mesh with a ray. steep: cosine between ray and normal, positive where the solid ends.

@@ -135,10 +135,11 @@ void picture_render(struct picture *out, const struct body *body, const struct r
     out->image.face = mem_zalloc(n * sizeof *out->image.face);
     out->spans = mem_zalloc(n * sizeof *out->spans);
     struct collector c = {out, rays->width};
-    struct cpu_device *device = cpu_device_new();
-    cpu_first_surface(device, body, rays, settings, &out->image, NULL, NULL, &out->surface_stats);
-    cpu_spans(device, body, rays, settings, collect, &c, &out->span_stats);
-    cpu_device_delete(device);
+    struct device *device = cpu_device_new();
+    device_first_surface(device, body, rays, settings, &out->image, NULL, NULL,
+                         &out->surface_stats);
+    device_spans(device, body, rays, settings, collect, &c, &out->span_stats);
+    device_delete(device);
 }
 
 void picture_free(struct picture *p)

@@ -37,8 +37,8 @@ static void expect(const char *text, struct vec3 ahead, struct vec3 right, const
     for (int w = 0; w < 2; w++) {
         struct render_stats stats;
         s.settings.walk = walks[w];
-        cpu_first_surface(s.device, &s.model.bodies[0], &rays, &s.settings, &image, NULL, NULL,
-                          &stats);
+        device_first_surface(s.device, &s.model.bodies[0], &rays, &s.settings, &image, NULL, NULL,
+                             &stats);
         for (int i = 0; i < SIZE * SIZE; i++) {
             double u = (i % SIZE + 0.5) * pixel, v = (i / SIZE + 0.5) * pixel;
             for (size_t k = 0; k < count; k++)

@@ -48,10 +48,10 @@ static struct measure measure_scene(const struct scene *s, double accuracy, uint
 {
     const struct render_settings settings = {.epsilon = model_epsilon(&s->model, -1),
                                              .threads = threads};
-    struct cpu_device *device = cpu_device_new();
+    struct device *device = cpu_device_new();
     struct measure m;
     measure_model(&m, device, &s->model, &settings, accuracy);
-    cpu_device_delete(device);
+    device_delete(device);
     return m;
 }
 

@@ -22,10 +22,10 @@ struct script {
 static struct script scripts[BODIES];
 static struct body bodies[BODIES];
 
-void cpu_first_surface(struct cpu_device *d, const struct body *body, const struct rays *rays,
-                       const struct render_settings *settings, struct surface_image *out,
-                       void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
-                       void *context, struct render_stats *stats)
+static void first_surface(struct device *d, const struct body *body, const struct rays *rays,
+                          const struct render_settings *settings, struct surface_image *out,
+                          void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                          void *context, struct render_stats *stats)
 {
     (void)d, (void)settings;
     const struct script *s = &scripts[body - bodies];
@@ -38,10 +38,10 @@ void cpu_first_surface(struct cpu_device *d, const struct body *body, const stru
     stats->fragments = 1;
 }
 
-void cpu_spans(struct cpu_device *d, const struct body *body, const struct rays *rays,
-               const struct render_settings *settings,
-               void (*sink)(void *context, uint32_t worker, const struct span_block *block),
-               void *context, struct render_stats *stats)
+static void spans_of(struct device *d, const struct body *body, const struct rays *rays,
+                     const struct render_settings *settings,
+                     void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+                     void *context, struct render_stats *stats)
 {
     (void)d, (void)settings;
     const struct script *s = &scripts[body - bodies];
@@ -55,6 +55,9 @@ void cpu_spans(struct cpu_device *d, const struct body *body, const struct rays 
         sink(context, 0, &(struct span_block){0, y, WIDTH, y + 1, first, spans});
     stats->fragments = 10;
 }
+
+static const struct device_kind kind = {.first_surface = first_surface, .spans = spans_of};
+static struct device device = {&kind};
 
 static double nx[8] = {-1, 1, 0, 0, 0, 0, -1, -1}, ny[8] = {0, 0, -1, 1},
               nz[8] = {0, 0, 0, 0, -1, 1}, plane_d[8] = {0, 1, 0, 1, 0, 1};
@@ -115,7 +118,7 @@ static void expect(int body_count, const char *scheme, int r, int g, int b, floa
     struct render_settings settings = {.epsilon = 1e-3, .threads = 2};
     struct render_stats stats;
     struct picture p = {0};
-    picture_draw(&p, NULL, &shader, &rays, &settings, &stats);
+    picture_draw(&p, &device, &shader, &rays, &settings, &stats);
     for (int i = 0; i < PIXELS; i++) {
         if (p.rgb[3 * i] != r || p.rgb[3 * i + 1] != g || p.rgb[3 * i + 2] != b)
             fail_msg("pixel %d: (%d,%d,%d), not (%d,%d,%d)", i, p.rgb[3 * i], p.rgb[3 * i + 1],
@@ -214,7 +217,7 @@ static void gradient_runs_from_top_to_bottom(void **state)
     struct rays rays = camera_rays(&c, 3, 200, BOX_EMPTY);
     struct render_stats stats;
     struct picture p = {0};
-    picture_draw(&p, NULL, &shader, &rays, &(struct render_settings){0}, &stats);
+    picture_draw(&p, &device, &shader, &rays, &(struct render_settings){0}, &stats);
     assert_memory_equal(p.rgb, "\x87\xce\xeb", 3);
     assert_memory_equal(p.rgb + 3 * (3 * 200 - 1), "\xc9\xe9\xf6", 3);
     picture_free(&p);

@@ -92,9 +92,9 @@ static int sides_seen(const struct body *body, const struct rays *rays, enum wal
     struct surface_image image = {WIDTH, HEIGHT, depth, leaf, face};
     struct render_settings settings = {.epsilon = epsilon, .threads = 1, .walk = walk};
     struct render_stats stats;
-    struct cpu_device *device = cpu_device_new();
-    cpu_first_surface(device, body, rays, &settings, &image, NULL, NULL, &stats);
-    cpu_device_delete(device);
+    struct device *device = cpu_device_new();
+    device_first_surface(device, body, rays, &settings, &image, NULL, NULL, &stats);
+    device_delete(device);
     int sides = 0;
     for (int i = 0; i < PIXELS; i++) {
         assert_int_not_equal(leaf[i], SURFACE_NONE);

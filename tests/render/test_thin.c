@@ -48,8 +48,8 @@ static void expect_plate(const char *text, uint32_t seen)
                 struct rays rays =
                     rays_along(directions[d], orthographic, sizes[k][0], sizes[k][1]);
                 uint32_t count = 0;
-                cpu_spans(s.device, &s.model.bodies[0], &rays, &settings, count_spans, &count,
-                          NULL);
+                device_spans(s.device, &s.model.bodies[0], &rays, &settings, count_spans, &count,
+                             NULL);
                 if (count != seen)
                     print_error("%s\ndirection %zu, pixels %g x %g, %s\n", text, d, sizes[k][0],
                                 sizes[k][1], orthographic ? "orthographic" : "perspective");

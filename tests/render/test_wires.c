@@ -121,7 +121,7 @@ static void wires_are_those_of_openscad(void **state)
     struct camera camera = {{10, 5, 5}, {50, 0, 30}, 60, 22.5, false};
     struct rays rays = camera_rays(&camera, WIDTH, HEIGHT, model.bounds);
     struct facets *facets = facets_new(&model);
-    struct cpu_device *device = cpu_device_new();
+    struct device *device = cpu_device_new();
     const struct render_settings settings = {.epsilon = 1e-4};
     wires_draw(&c, device, &model, scheme, facets, &rays, &settings);
 
@@ -131,7 +131,7 @@ static void wires_are_those_of_openscad(void **state)
         differences += letter_of(rgb + 3 * i, scheme) != expected[i];
     if (differences > 26)
         fail_msg("%d pixels differ", differences);
-    cpu_device_delete(device);
+    device_delete(device);
     facets_delete(facets);
     model_free(&model);
     solid_store_delete(store);

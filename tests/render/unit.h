@@ -19,7 +19,7 @@ struct stage {
     struct model model;
     struct solid_store *store;
     struct shader shader;
-    struct cpu_device *device;
+    struct device *device;
     struct render_settings settings;
 };
 
@@ -49,7 +49,7 @@ static inline void stage_make(struct stage *s, const char *text)
 static inline void stage_free(struct stage *s)
 {
     shader_free(&s->shader);
-    cpu_device_delete(s->device);
+    device_delete(s->device);
     model_free(&s->model);
     solid_store_delete(s->store);
     csg_free(&s->tree);

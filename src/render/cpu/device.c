@@ -12,34 +12,12 @@
 enum { MEMORY_DEFAULT = 256 << 20, TILES_SHARED = 16 };
 
 struct cpu_device {
+    struct device device;
     const struct kernel *kernel;
     struct tree_cache trees;
     void **workers; // made when there is work for them; NULL until then
     uint32_t worker_count;
 };
-
-struct cpu_device *cpu_device_new(void)
-{
-    struct cpu_device *d = mem_zalloc(sizeof *d);
-    d->kernel = &kernel_baseline;
-#ifdef __x86_64__
-    if (__builtin_cpu_supports("avx2"))
-        d->kernel = &kernel_avx2;
-#endif
-    return d;
-}
-
-void cpu_device_delete(struct cpu_device *d)
-{
-    if (!d)
-        return;
-    tree_cache_free(&d->trees);
-    for (uint32_t i = 0; i < d->worker_count; i++)
-        if (d->workers[i])
-            d->kernel->worker_delete(d->workers[i]);
-    free(d->workers);
-    free(d);
-}
 
 // Gives each mesh leaf in the picture the tree of its solid.
 static void attach_trees(struct cpu_device *d, struct frame *f)
@@ -141,22 +119,45 @@ static void render(struct cpu_device *d, const struct body *body, const struct r
     frame_free(&f);
 }
 
-void cpu_first_surface(struct cpu_device *d, const struct body *body, const struct rays *rays,
-                       const struct render_settings *settings, struct surface_image *out,
-                       void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
-                       void *context, struct render_stats *stats)
+static void first_surface(struct device *d, const struct body *body, const struct rays *rays,
+                          const struct render_settings *settings, struct surface_image *out,
+                          void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                          void *context, struct render_stats *stats)
 {
     struct kernel_job job = {.image = out, .drawn = drawn, .context = context};
-    out->width = rays->width;
-    out->height = rays->height;
-    render(d, body, rays, settings, &job, stats);
+    render((struct cpu_device *)d, body, rays, settings, &job, stats);
 }
 
-void cpu_spans(struct cpu_device *d, const struct body *body, const struct rays *rays,
-               const struct render_settings *settings,
-               void (*sink)(void *context, uint32_t worker, const struct span_block *block),
-               void *context, struct render_stats *stats)
+static void spans(struct device *d, const struct body *body, const struct rays *rays,
+                  const struct render_settings *settings,
+                  void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+                  void *context, struct render_stats *stats)
 {
     struct kernel_job job = {.sink = sink, .context = context};
-    render(d, body, rays, settings, &job, stats);
+    render((struct cpu_device *)d, body, rays, settings, &job, stats);
+}
+
+static void delete (struct device *device)
+{
+    struct cpu_device *d = (struct cpu_device *)device;
+    tree_cache_free(&d->trees);
+    for (uint32_t i = 0; i < d->worker_count; i++)
+        if (d->workers[i])
+            d->kernel->worker_delete(d->workers[i]);
+    free(d->workers);
+    free(d);
+}
+
+struct device *cpu_device_new(void)
+{
+    static const struct device_kind kind = {
+        .first_surface = first_surface, .spans = spans, .delete = delete};
+    struct cpu_device *d = mem_zalloc(sizeof *d);
+    d->device.kind = &kind;
+    d->kernel = &kernel_baseline;
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2"))
+        d->kernel = &kernel_avx2;
+#endif
+    return &d->device;
 }
