@@ -1,5 +1,6 @@
 // device.h - what a renderer of bodies answers; who consumes it does not know which device ran.
 #pragma once
+#include "base/error.h"
 #include "model/model.h"
 #include "render/rays.h"
 
@@ -78,7 +79,8 @@ void device_delete(struct device *d); // NULL: nothing to do
 
 // Fills *out (arrays of width * height, owned by the caller). `drawn`, unless NULL, is called for
 // rectangles that cover the picture, each pixel once, when their surfaces are there, from several
-// threads at once; `nothing` says that no pixel of it has a surface.
+// threads at once; `nothing` says that no pixel of it has a surface. NULL stats:
+// nobody asks.
 void device_first_surface(struct device *d, const struct body *body, const struct rays *rays,
                           const struct render_settings *settings, struct surface_image *out,
                           void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
@@ -91,20 +93,27 @@ void device_spans(struct device *d, const struct body *body, const struct rays *
                   void (*sink)(void *context, uint32_t worker, const struct span_block *block),
                   void *context, struct render_stats *stats);
 
-// What makes a device: the functions above, with the same contracts. Each device begins with a
-// struct device.
+// What has gone wrong since this was last asked, as one line; false: nothing. The pictures are
+// whole nevertheless: from where a device fails, the one on the processor takes over for good.
+bool device_failed(struct device *d, struct error *why);
+
+// What makes a device: the functions above, with the same contracts, but that they return how many
+// rows from the top are done and told, and that stats are never NULL. Fewer than all: the device
+// has failed, *err says why, and it will be asked no more. Each device begins with a struct device.
 struct device_kind {
-    void (*first_surface)(struct device *d, const struct body *body, const struct rays *rays,
-                          const struct render_settings *settings, struct surface_image *out,
-                          void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
-                          void *context, struct render_stats *stats);
-    void (*spans)(struct device *d, const struct body *body, const struct rays *rays,
-                  const struct render_settings *settings,
-                  void (*sink)(void *context, uint32_t worker, const struct span_block *block),
-                  void *context, struct render_stats *stats);
+    int (*first_surface)(struct device *d, const struct body *body, const struct rays *rays,
+                         const struct render_settings *settings, struct surface_image *out,
+                         void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                         void *context, struct render_stats *stats, struct error *err);
+    int (*spans)(struct device *d, const struct body *body, const struct rays *rays,
+                 const struct render_settings *settings,
+                 void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+                 void *context, struct render_stats *stats, struct error *err);
     void (*delete)(struct device *d);
 };
 
 struct device {
     const struct device_kind *kind;
+    struct device *instead; // has taken over; NULL: this one works
+    struct error failure;   // not yet asked for; empty: none
 };

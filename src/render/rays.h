@@ -32,6 +32,16 @@ static inline struct vec3 rays_direction(const struct rays *r, double x, double 
     return vec3_add(r->forward, vec3_add(vec3_scale(r->step_x, x), vec3_scale(r->step_y, y)));
 }
 
+// Those of the rows from `first` on.
+static inline struct rays rays_below(const struct rays *r, int first)
+{
+    struct rays below = *r;
+    struct vec3 *start = r->orthographic ? &below.origin : &below.forward;
+    *start = vec3_add(*start, vec3_scale(r->step_y, first));
+    below.height -= first;
+    return below;
+}
+
 // Where a point shows: x and y of the picture, and its depth. Behind the eye it has no place.
 static inline struct vec3 rays_place(const struct rays *r, struct vec3 p)
 {

@@ -22,12 +22,12 @@ struct script {
 static struct script scripts[BODIES];
 static struct body bodies[BODIES];
 
-static void first_surface(struct device *d, const struct body *body, const struct rays *rays,
-                          const struct render_settings *settings, struct surface_image *out,
-                          void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
-                          void *context, struct render_stats *stats)
+static int first_surface(struct device *d, const struct body *body, const struct rays *rays,
+                         const struct render_settings *settings, struct surface_image *out,
+                         void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                         void *context, struct render_stats *stats, struct error *err)
 {
-    (void)d, (void)settings;
+    (void)d, (void)settings, (void)err;
     const struct script *s = &scripts[body - bodies];
     for (int i = 0; i < rays->width * rays->height; i++) {
         out->leaf[i] = s->count ? s->spans[0].enter_leaf : SURFACE_NONE;
@@ -36,14 +36,15 @@ static void first_surface(struct device *d, const struct body *body, const struc
     }
     drawn(context, (struct pixel_rect){0, 0, rays->width, rays->height}, !s->count);
     stats->fragments = 1;
+    return rays->height;
 }
 
-static void spans_of(struct device *d, const struct body *body, const struct rays *rays,
-                     const struct render_settings *settings,
-                     void (*sink)(void *context, uint32_t worker, const struct span_block *block),
-                     void *context, struct render_stats *stats)
+static int spans_of(struct device *d, const struct body *body, const struct rays *rays,
+                    const struct render_settings *settings,
+                    void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+                    void *context, struct render_stats *stats, struct error *err)
 {
-    (void)d, (void)settings;
+    (void)d, (void)settings, (void)err;
     const struct script *s = &scripts[body - bodies];
     uint32_t first[WIDTH + 1];
     struct span spans[WIDTH * SPANS];
@@ -54,10 +55,11 @@ static void spans_of(struct device *d, const struct body *body, const struct ray
     for (int y = 0; y < rays->height; y++)
         sink(context, 0, &(struct span_block){0, y, WIDTH, y + 1, first, spans});
     stats->fragments = 10;
+    return rays->height;
 }
 
 static const struct device_kind kind = {.first_surface = first_surface, .spans = spans_of};
-static struct device device = {&kind};
+static struct device device = {.kind = &kind};
 
 static double nx[8] = {-1, 1, 0, 0, 0, 0, -1, -1}, ny[8] = {0, 0, -1, 1},
               nz[8] = {0, 0, 0, 0, -1, 1}, plane_d[8] = {0, 1, 0, 1, 0, 1};

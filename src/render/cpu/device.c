@@ -109,35 +109,38 @@ static void render(struct cpu_device *d, const struct body *body, const struct r
             d->kernel->worker_add(r.workers[i], &totals);
     free(r.ready);
     discovery_settle(body->table);
-    if (stats)
-        *stats = (struct render_stats){.seconds_setup = ready - begun,
-                                       .seconds_draw = clock_seconds() - ready,
-                                       .fragments = totals.fragments,
-                                       .misses = totals.misses,
-                                       .open_rays = totals.open_rays,
-                                       .peak_bytes = f.bytes + totals.bytes};
+    *stats = (struct render_stats){.seconds_setup = ready - begun,
+                                   .seconds_draw = clock_seconds() - ready,
+                                   .fragments = totals.fragments,
+                                   .misses = totals.misses,
+                                   .open_rays = totals.open_rays,
+                                   .peak_bytes = f.bytes + totals.bytes};
     frame_free(&f);
 }
 
-static void first_surface(struct device *d, const struct body *body, const struct rays *rays,
-                          const struct render_settings *settings, struct surface_image *out,
-                          void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
-                          void *context, struct render_stats *stats)
+static int first_surface(struct device *d, const struct body *body, const struct rays *rays,
+                         const struct render_settings *settings, struct surface_image *out,
+                         void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
+                         void *context, struct render_stats *stats, struct error *err)
 {
+    (void)err;
     struct kernel_job job = {.image = out, .drawn = drawn, .context = context};
     render((struct cpu_device *)d, body, rays, settings, &job, stats);
+    return rays->height;
 }
 
-static void spans(struct device *d, const struct body *body, const struct rays *rays,
-                  const struct render_settings *settings,
-                  void (*sink)(void *context, uint32_t worker, const struct span_block *block),
-                  void *context, struct render_stats *stats)
+static int spans(struct device *d, const struct body *body, const struct rays *rays,
+                 const struct render_settings *settings,
+                 void (*sink)(void *context, uint32_t worker, const struct span_block *block),
+                 void *context, struct render_stats *stats, struct error *err)
 {
+    (void)err;
     struct kernel_job job = {.sink = sink, .context = context};
     render((struct cpu_device *)d, body, rays, settings, &job, stats);
+    return rays->height;
 }
 
-static void delete (struct device *device)
+static void end(struct device *device)
 {
     struct cpu_device *d = (struct cpu_device *)device;
     tree_cache_free(&d->trees);
@@ -151,7 +154,7 @@ static void delete (struct device *device)
 struct device *cpu_device_new(void)
 {
     static const struct device_kind kind = {
-        .first_surface = first_surface, .spans = spans, .delete = delete};
+        .first_surface = first_surface, .spans = spans, .delete = end};
     struct cpu_device *d = mem_zalloc(sizeof *d);
     d->device.kind = &kind;
     d->kernel = &kernel_baseline;
