@@ -13,7 +13,7 @@
 
 // One write gives several events within microseconds. A file written in pieces is left alone while
 // the pieces follow each other closely, but not for ever.
-enum { SETTLE_MS = 4, SETTLE_MOST_MS = 250, LOOK_MS = 1000 };
+enum { QUIET_MS = 3, TURN_MS = 1, SETTLE_MOST_MS = 250, LOOK_MS = 1000 };
 
 struct stamp { // all zero: no such file
     uint64_t device, inode, size;
@@ -78,15 +78,23 @@ static void on_settled(uv_timer_t *timer)
     w->saved(w->context, noticed);
 }
 
+// A loop that is late calls timers before it reads events: those that came meanwhile are still to
+// be heard of, and begin the wait anew.
+static void on_quiet(uv_timer_t *timer)
+{
+    uv_timer_start(timer, on_settled, TURN_MS, 0);
+}
+
 static void notice(struct watch *w)
 {
     double now = clock_seconds();
     if (w->noticed == 0)
         w->noticed = now;
-    double left = w->noticed + SETTLE_MOST_MS * 1e-3 - now;
-    uint64_t wait = left > SETTLE_MS * 1e-3 ? SETTLE_MS : 0;
     uv_update_time(w->loop);
-    uv_timer_start(&w->settle, on_settled, wait, 0);
+    if (now - w->noticed < SETTLE_MOST_MS * 1e-3)
+        uv_timer_start(&w->settle, on_quiet, QUIET_MS, 0);
+    else
+        uv_timer_start(&w->settle, on_settled, 0, 0);
 }
 
 static const char *base_name(const char *path)

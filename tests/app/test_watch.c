@@ -169,12 +169,17 @@ static void write_piece(uv_timer_t *timer)
 static void pieces_that_follow_closely_are_one_save(void **state)
 {
     (void)state;
+    double begun = clock_seconds();
+    int count = 0;
     pieces = 40;
     uv_timer_init(&loop, &writer);
     uv_timer_start(&writer, write_piece, 1, 1);
-    int count = seen_within(300);
+    while (pieces || !count)
+        count += seen_within(20);
     uv_close((uv_handle_t *)&writer, NULL);
-    assert_in_range(count, 1, 10); // one, unless the machine is busy
+    count += seen_within(60);
+    // one, but on a busy machine the pieces may take longer than a save is put off
+    assert_in_range(count, 1, 1 + (int)((clock_seconds() - begun) / 0.25));
 }
 
 static void a_link_is_followed(void **state)
