@@ -1,0 +1,207 @@
+// cluster.c - which face shows where surfaces touch.
+#include "render/cpu/cluster.h"
+
+#include "base/mem.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+size_t cluster_room_bytes(const struct cluster_room *room)
+{
+    return room->rest_capacity * sizeof *room->rest + room->border_capacity + room->kept_capacity +
+           room->turn_capacity * sizeof *room->turns;
+}
+
+void cluster_room_free(struct cluster_room *room)
+{
+    free(room->rest);
+    free(room->border);
+    free(room->kept);
+    free(room->turns);
+    *room = (struct cluster_room){0};
+}
+
+static bool enters(crossing c)
+{
+    return !(c & 1);
+}
+
+// The leaf of a crossing, in the tile.
+static struct tile_leaf *leaf_of(const struct cluster *c, crossing i)
+{
+    return &c->behind->t->leaves[(uint32_t)i >> 1];
+}
+
+// Begins `rest` with the crossings in front of the cluster.
+static uint32_t begin_rest(const struct cluster *c)
+{
+    struct cluster_room *room = c->room;
+    array_reserve(&room->rest, &room->rest_capacity, c->to);
+    memcpy(room->rest, c->items, c->from * sizeof *room->rest);
+    combination_forget_list(c->behind);
+    return c->from;
+}
+
+// Would the state behind the cluster be solid with only those of its crossings that are `kept`?
+static bool solid_with_kept(const struct cluster *c)
+{
+    const bool *kept = c->room->kept;
+    uint32_t n = begin_rest(c);
+    for (uint32_t i = c->from; i < c->to; i++) {
+        if (kept[i - c->from])
+            c->room->rest[n++] = c->items[i];
+        else
+            combination_step(c->behind, c->items[i], true);
+    }
+    bool solid = combination_is_solid(c->behind, c->room->rest, n);
+    combination_forget_list(c->behind);
+    for (uint32_t i = c->from; i < c->to; i++)
+        if (!kept[i - c->from])
+            combination_step(c->behind, c->items[i], false);
+    return solid;
+}
+
+// Would it be solid without crossing `one` of the cluster, or (alone) with no other one? A leaf
+// that only crosses the border of its region is inside on both sides in truth.
+static bool solid_if(const struct cluster *c, uint32_t one, bool alone)
+{
+    for (uint32_t i = c->from; i < c->to; i++)
+        c->room->kept[i - c->from] =
+            c->room->border[i - c->from] ? enters(c->items[i]) : (i == one) == alone;
+    return solid_with_kept(c);
+}
+
+// Is the place solid when the border of every leaf belongs to it?
+static bool solid_closed(const struct cluster *c)
+{
+    for (uint32_t i = c->from; i < c->to; i++)
+        c->room->kept[i - c->from] = enters(c->items[i]);
+    return solid_with_kept(c);
+}
+
+// Does the leaf of crossing i also cross the other way in the cluster? It is too thin to show.
+static bool is_paired(const struct cluster *c, uint32_t i)
+{
+    for (uint32_t k = c->from; k < c->to; k++)
+        if (((uint32_t)c->items[k] ^ (uint32_t)c->items[i]) == 1)
+            return true;
+    return false;
+}
+
+// Notes which crossings are no surfaces but the border of a region.
+static void find_borders(const struct cluster *c)
+{
+    struct cluster_room *room = c->room;
+    float steep;
+    array_reserve(&room->border, &room->border_capacity, c->to - c->from);
+    for (uint32_t i = c->from; i < c->to; i++)
+        room->border[i - c->from] =
+            tile_face(c->behind->t, leaf_of(c, c->items[i]), c->ray, !enters(c->items[i]),
+                      crossing_key(c->items[i]), &steep) == FACE_REGION;
+}
+
+// Takes the crossings one by one and lists those that turn the state, which is `solid` behind all
+// of them. Returns how many; 0 when the last of them leaves it otherwise, as borders of regions
+// may.
+static uint32_t find_turns(const struct cluster *c, bool solid)
+{
+    struct cluster_room *room = c->room;
+    bool now = !solid;
+    uint32_t n = begin_rest(c), turns = 0;
+    array_reserve(&room->turns, &room->turn_capacity, c->to - c->from);
+    for (uint32_t i = c->from; i < c->to; i++) {
+        if (room->border[i - c->from] && enters(c->items[i]))
+            room->rest[n++] = c->items[i];
+        else
+            combination_step(c->behind, c->items[i], true);
+    }
+    for (uint32_t i = c->from; i < c->to; i++) {
+        if (room->border[i - c->from])
+            continue;
+        combination_step(c->behind, c->items[i], false);
+        room->rest[n++] = c->items[i];
+        if (combination_is_solid(c->behind, room->rest, n) != now) {
+            now = !now;
+            room->turns[turns++] = i;
+        }
+    }
+    combination_forget_list(c->behind);
+    for (uint32_t i = c->from; i < c->to; i++)
+        if (room->border[i - c->from] && !enters(c->items[i]))
+            combination_step(c->behind, c->items[i], false);
+    return now == solid ? turns : 0;
+}
+
+// The crossing that makes the state `solid`: taken one by one they may turn it several times, for
+// there are thin intervals between. The thinnest go first, since some are only where two leaves
+// touch. c->to when none turns it.
+static uint32_t turning_point(const struct cluster *c, bool solid)
+{
+    uint32_t count = find_turns(c, solid);
+    uint32_t *turn = c->room->turns;
+    while (count > 1) {
+        uint32_t least = 0;
+        float gap = FLT_MAX;
+        for (uint32_t k = 0; k + 1 < count; k++) {
+            float d = crossing_key(c->items[turn[k + 1]]) - crossing_key(c->items[turn[k]]);
+            if (d <= gap) {
+                gap = d;
+                least = k;
+            }
+        }
+        count -= 2;
+        memmove(turn + least, turn + least + 2, (count - least) * sizeof *turn);
+    }
+    return count ? turn[0] : c->to;
+}
+
+static struct face_at face_of(const struct cluster *c, crossing i)
+{
+    return (struct face_at){leaf_of(c, i), !enters(i), crossing_key(i)};
+}
+
+// Whether crossing i shows rather than crossing `best`, where the place wants leaves of the given
+// kind; 2 for any.
+static bool goes_before(const struct cluster *c, crossing i, crossing best, int cut)
+{
+    const struct leaf *leaves = c->behind->t->frame->body->leaves;
+    uint32_t a = leaf_of(c, i)->leaf, b = leaf_of(c, best)->leaf;
+    bool wanted = leaves[a].subtracted == cut, has = leaves[b].subtracted == cut;
+    return cut == 2 || wanted == has ? a > b : wanted;
+}
+
+static bool in_one_plane(const struct cluster *c, crossing a, crossing b)
+{
+    return crossing_key(a) == crossing_key(b) ||
+           tile_coplanar(c->behind->t, c->ray, face_of(c, a), face_of(c, b));
+}
+
+// Of those in one plane with the one that turns the state, it is the latest of the file that
+// matters, because the state would be another one without it, or with it alone. A leaf too thin to
+// show gives way to any of these. Of geometry it is a cut face where the place is not solid with
+// all borders.
+crossing cluster_owner(const struct cluster *c, bool solid)
+{
+    if (c->to - c->from == 1)
+        return c->items[c->from];
+    find_borders(c);
+    uint32_t turning = turning_point(c, solid);
+    if (turning == c->to)
+        return c->items[c->from];
+    array_reserve(&c->room->kept, &c->room->kept_capacity, c->to - c->from);
+    crossing turn = c->items[turning], best = turn;
+    bool weak = is_paired(c, turning);
+    int cut = c->behind->t->frame->body->borders ? !solid_closed(c) : 2;
+    for (uint32_t i = c->from; i < c->to; i++) {
+        crossing one = c->items[i];
+        if (i == turning || (!weak && !goes_before(c, one, best, cut)) ||
+            c->room->border[i - c->from] || is_paired(c, i) || !in_one_plane(c, one, turn))
+            continue;
+        if (solid_if(c, i, false) == solid && solid_if(c, i, true) != solid)
+            continue;
+        best = one;
+        weak = false;
+    }
+    return best;
+}
