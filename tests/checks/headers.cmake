@@ -5,7 +5,7 @@ foreach(header ${headers})
     execute_process(
         COMMAND ${CMAKE_COMMAND} -E echo "#include \"${header}\"\n#include \"${header}\""
         COMMAND ${CC} -std=c11 -D_GNU_SOURCE -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes
-                -Werror -Wno-psabi -fsyntax-only -I ${ROOT}/src -x c -
+                -Werror -Wno-psabi -fsyntax-only -I ${ROOT}/src -I ${ROOT} -x c -
         RESULT_VARIABLE result ERROR_VARIABLE text)
     if(NOT result EQUAL 0)
         list(APPEND faults "${header}:\n${text}")

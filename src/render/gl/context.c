@@ -66,6 +66,9 @@ static void listen(const struct gl_log *log)
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     for (size_t i = 0; i < array_count(quiet); i++)
         glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, quiet[i], 0, NULL, GL_FALSE);
+    // What compilers say is told by who compiles, with the file and the line.
+    glDebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, GL_DONT_CARE, GL_DONT_CARE, 0, NULL,
+                          GL_FALSE);
     glDebugMessageCallback(debug_message, log);
 }
 
