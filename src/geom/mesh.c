@@ -1,8 +1,6 @@
 // mesh.c - building and measuring indexed triangle meshes.
 #include "geom/mesh.h"
 
-#include "base/hash.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -105,19 +103,6 @@ void mesh_drop_unused(struct mesh *m)
     drop_collapsed(m);
     drop_vertices(m);
     drop_faces(m);
-}
-
-// Each edge has a random number, which counts positive in one direction and negative in the other:
-// that the sum is 0 although there is a border has a chance of 2^-64.
-bool mesh_has_border(const struct mesh *m)
-{
-    uint64_t sum = 0;
-    for (uint32_t t = 0; t < m->triangle_count; t++)
-        for (int i = 0; i < 3; i++) {
-            uint64_t a = m->triangles[t][i], b = m->triangles[t][(i + 1) % 3];
-            sum += a < b ? hash_mix(a << 32 | b) : -hash_mix(b << 32 | a);
-        }
-    return sum != 0;
 }
 
 struct box mesh_bounds(const struct mesh *m)

@@ -21,8 +21,6 @@ void mesh_drop_unused(struct mesh *m);
 // Merges vertices that are equal in coordinates (0 equals -0), then drops what is unused.
 void mesh_weld(struct mesh *m);
 
-// Has an edge more triangles on one side than on the other?
-bool mesh_has_border(const struct mesh *m);
 struct box mesh_bounds(const struct mesh *m);
 double mesh_area(const struct mesh *m);   // of all triangles
 double mesh_volume(const struct mesh *m); // signed: positive when triangles face outward

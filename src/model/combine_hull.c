@@ -1,8 +1,8 @@
 // combine_hull.c - hull and minkowski.
+#include "geom/border.h"
 #include "geom/clip.h"
 #include "geom/extrude.h"
 #include "geom/hull.h"
-#include "geom/mesh.h"
 #include "geom/minkowski.h"
 #include "model/nodes.h"
 

@@ -134,7 +134,7 @@ void combine_projection(struct operands *o, struct value *out)
         builder_warn(o->b, o->args->node, "projection() needs solids; the 2D ones are left out");
     if (o->kind == GEOMETRY_SOLID && cut) {
         operands_fold(o, TERM_UNION, out);
-        done = cut_term(o->scene, out->term, &flat);
+        done = cut_term(o->scene, closed_term(o->b, out->term), &flat);
     } else if (o->kind == GEOMETRY_SOLID) {
         done = shadow(o, &flat);
     }

@@ -4,6 +4,7 @@
 #include "geom/clip.h"
 #include "geom/placed.h"
 #include "model/sheet.h"
+#include "model/store.h"
 
 #include <stdlib.h>
 
@@ -52,6 +53,34 @@ void value_place(struct builder *b, const struct csg_node *n, struct value *v,
 
 // ---------------------------------------------------------------- solids
 
+uint32_t closed_term(struct builder *b, uint32_t term)
+{
+    const struct term *t = term < TERM_EMPTY ? &b->scene.terms[term] : NULL;
+    if (!t || t->op != TERM_LEAF)
+        return term;
+    const struct leaf *leaf = &b->scene.leaves[t->left];
+    if (!leaf->solid || store_is_closed(b->store, leaf->solid))
+        return term;
+    messages_add(b->messages, MESSAGE_WARNING, leaf->place,
+                 "a mesh that is not closed or partly inside out cannot be combined with others; "
+                 "left out");
+    return TERM_EMPTY;
+}
+
+static uint32_t solid_term(const struct value *v)
+{
+    return v->kind == GEOMETRY_SOLID ? v->term : TERM_EMPTY;
+}
+
+// What is empty does not count in a union.
+static bool are_combined(const struct operands *o, enum term_op op)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < o->count; i++)
+        count += op != TERM_UNION || solid_term(&o->values[i]) < TERM_EMPTY;
+    return count > 1;
+}
+
 void operands_fold(struct operands *o, enum term_op op, struct value *out)
 {
     out->kind = o->kind;
@@ -61,9 +90,11 @@ void operands_fold(struct operands *o, enum term_op op, struct value *out)
     if (o->kind != GEOMETRY_SOLID)
         return;
     uint32_t term = TERM_NONE;
-    for (uint32_t i = 0; i < o->count; i++)
-        term = scene_fold(o->scene, op, term,
-                          o->values[i].kind == GEOMETRY_SOLID ? o->values[i].term : TERM_EMPTY);
+    bool combined = are_combined(o, op);
+    for (uint32_t i = 0; i < o->count; i++) {
+        uint32_t one = solid_term(&o->values[i]);
+        term = scene_fold(o->scene, op, term, combined ? closed_term(o->b, one) : one);
+    }
     out->term = term == TERM_NONE ? TERM_EMPTY : term;
 }
 

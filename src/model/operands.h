@@ -23,6 +23,9 @@ struct operands {
 
 void value_free(struct value *v); // leaves {0}: nothing
 
+// A leaf whose mesh bounds no solid becomes nothing, with a warning, as OpenSCAD has it where an
+// object is combined with others; alone it stays.
+uint32_t closed_term(struct builder *b, uint32_t term);
 // Folds the operands by an operation of CSG. Like all below it takes what it needs out of them.
 void operands_fold(struct operands *o, enum term_op op, struct value *out);
 // Moves the leaves of the operands.

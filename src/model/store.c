@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/mem.h"
+#include "geom/border.h"
 #include "geom/extrude.h"
 
 #include <pthread.h>
@@ -11,12 +12,15 @@
 
 enum { KEY_MESH = 0x6d657368, KEY_PLATE = 0x706c6174 };
 
+enum border { BORDER_UNKNOWN, BORDER_NONE, BORDER_LEFT };
+
 struct entry {
     struct solid solid;        // first: a solid's address is its entry's
     struct geometry *geometry; // NULL: a solid; else that and no solid, but for the hash
     uint64_t stamp;            // of the files that the geometry was made from
     uint32_t holders;
     uint32_t generation; // of the last count that saw it
+    uint8_t border;      // enum border, of the solid's mesh
     struct entry *older; // of the retired ones
 };
 
@@ -194,6 +198,21 @@ const struct solid *store_mesh(struct solid_store *s, struct mesh *m, bool conve
         return store_add(s, key, m, convex, CUT_TRIANGLES);
     mesh_free(m);
     return solid;
+}
+
+bool store_is_closed(struct solid_store *s, const struct solid *solid)
+{
+    struct entry *e = (struct entry *)solid;
+    pthread_mutex_lock(&s->lock);
+    uint8_t border = e->border;
+    pthread_mutex_unlock(&s->lock);
+    if (border == BORDER_UNKNOWN) {
+        border = !solid->convex && mesh_has_border(&solid->mesh) ? BORDER_LEFT : BORDER_NONE;
+        pthread_mutex_lock(&s->lock);
+        e->border = border;
+        pthread_mutex_unlock(&s->lock);
+    }
+    return border == BORDER_NONE;
 }
 
 const struct solid *store_plate(struct solid_store *s, const struct outline *o)

@@ -11,6 +11,9 @@ const struct solid *store_find(struct solid_store *s, uint64_t key);
 const struct solid *store_add(struct solid_store *s, uint64_t key, struct mesh *m, bool convex,
                               enum solid_cut cut);
 
+// Is its mesh, as it was written, the border of a solid? Looked at once.
+bool store_is_closed(struct solid_store *s, const struct solid *solid);
+
 // The plate that shows a flat shape, z from -0.5 to 0.5; NULL for an empty one.
 const struct solid *store_plate(struct solid_store *s, const struct outline *o);
 // The solid of a mesh by its content, out of the store or put there. Takes the mesh over.

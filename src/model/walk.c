@@ -3,6 +3,7 @@
 // No recursion: files nest as deep as memory allows.
 #include "model/evaluate.h"
 #include "model/nodes.h"
+#include "model/operands.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -106,14 +107,29 @@ static uint32_t fold_rendered(struct scene *s, const struct frame *f, uint32_t l
     return scene_fold(s, f->operation, left, term);
 }
 
+// Does render() make one object of several operands of a node?
+static bool are_combined(const struct walk *w, const struct frame *f)
+{
+    uint32_t count = 0;
+    for (uint32_t i = f->first; i < w->operand_count && f->render != RENDER_OUTSIDE; i++)
+        count += !(scene_marks(&w->b->scene, w->operands[i]) & CSG_BACKGROUND) &&
+                 (f->operation != TERM_UNION || w->operands[i] < TERM_EMPTY);
+    return count > 1;
+}
+
 // Takes the operands of a node off the stack and returns what they make, TERM_NONE without any.
 static uint32_t fold(struct walk *w, const struct frame *f)
 {
     struct scene *s = &w->b->scene;
     uint32_t term = TERM_NONE;
-    for (uint32_t i = f->first; i < w->operand_count; i++)
-        term = f->render != RENDER_OUTSIDE ? fold_rendered(s, f, term, w->operands[i])
-                                           : scene_fold(s, f->operation, term, w->operands[i]);
+    bool combined = are_combined(w, f);
+    for (uint32_t i = f->first; i < w->operand_count; i++) {
+        uint32_t one = combined && !scene_marks(s, w->operands[i])
+                           ? closed_term(w->b, w->operands[i])
+                           : w->operands[i];
+        term = f->render != RENDER_OUTSIDE ? fold_rendered(s, f, term, one)
+                                           : scene_fold(s, f->operation, term, one);
+    }
     w->operand_count = f->first;
     return term;
 }

@@ -1,5 +1,6 @@
 // whole.c - the file evaluated as one object.
 #include "model/evaluate.h"
+#include "model/operands.h"
 
 // The plate of a flat shape has no thickness of its own here; sheets are thickened as others.
 static const struct affine pressed_flat = {{{1, 0, 0, 0}, {0, 1, 0, 0}}};
@@ -20,6 +21,8 @@ void builder_evaluate(struct builder *b)
     if (done && g.kind == GEOMETRY_SOLID) {
         b->scene = g.scene;
         b->scene.root = g.root;
+        if (b->options->united)
+            b->scene.root = closed_term(b, b->scene.root);
         g.scene = (struct scene){0};
     }
     if (done && g.kind == GEOMETRY_FLAT && g.plate)

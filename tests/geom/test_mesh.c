@@ -24,25 +24,6 @@ static void weld_merges_equal_vertices_and_keeps_order(void **state)
     mesh_free(&b.mesh);
 }
 
-static void borders_are_edges_with_one_side(void **state)
-{
-    (void)state;
-    struct mesh_builder b = {0};
-    const uint32_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    for (int i = 0; i < 4; i++)
-        mesh_add_vertex(&b, (struct vec3){i == 1, i == 2, i == 3});
-    assert_false(mesh_has_border(&b.mesh));
-    for (int i = 0; i < 4; i++) {
-        mesh_add_triangle(&b, faces[i][0], faces[i][1], faces[i][2], mesh_add_face(&b));
-        assert_true(mesh_has_border(&b.mesh) == (i < 3));
-    }
-    uint32_t turned = b.mesh.triangles[3][0];
-    b.mesh.triangles[3][0] = b.mesh.triangles[3][1];
-    b.mesh.triangles[3][1] = turned;
-    assert_true(mesh_has_border(&b.mesh));
-    mesh_free(&b.mesh);
-}
-
 static void empty_mesh_is_a_solid(void **state)
 {
     (void)state;
@@ -82,7 +63,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(weld_merges_equal_vertices_and_keeps_order),
-        cmocka_unit_test(borders_are_edges_with_one_side),
         cmocka_unit_test(empty_mesh_is_a_solid),
         cmocka_unit_test(needle_faces_get_planes_that_cut_nothing),
     };

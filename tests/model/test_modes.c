@@ -160,6 +160,51 @@ static void the_first_object_decides_the_dimension(void **state)
     expect_render("group(); intersection() { square(2); }", 1, true, true, 0);
 }
 
+#define POINTS "polyhedron([[0,0,0],[9,0,0],[0,9,0],[0,0,9]], "
+#define OPEN   POINTS "[[0,1,2],[0,3,1],[1,3,2]]);"
+#define MIXED  POINTS "[[0,1,2],[0,3,1],[1,3,2],[0,3,2]]);"
+#define TURNED POINTS "[[0,2,1],[0,1,3],[1,2,3],[0,3,2]]);"
+
+// Each is what openscad says and keeps.
+static void meshes_that_bound_nothing_stand_alone(void **state)
+{
+    (void)state;
+    expect_render(OPEN, 1, true, false, 0);
+    expect_render(MIXED, 1, true, false, 0);
+    expect_render(MIXED "group(); %cube(1); square(1);", 1, true, false, 1);
+    expect_render("resize([5,5,5]) render() " OPEN, 1, true, false, 0);
+    expect_render(OPEN FAR(20) "cube(1);", 1, true, false, 1);
+    expect_render(OPEN MIXED, 0, false, false, 2);
+    expect_render(TURNED FAR(20) "cube(1);", 2, false, false, 0);
+    expect_render("difference() { cube(20); " FAR(1) MIXED "}", 1, true, false, 1);
+    expect_render("difference() { " MIXED " group(); }", 0, false, false, 1);
+    expect_render("intersection() { cube(20); " OPEN "}", 0, false, false, 1);
+    expect_render("render() " MIXED FAR(20) "cube(1);", 1, true, false, 1);
+    expect_render("minkowski() { cube(1); " MIXED "}", 0, false, false, 1);
+    expect_render("hull() { " OPEN FAR(20) "cube(1); }", 1, true, false, 0);
+    expect_render("hull() { union() { " OPEN FAR(20) "cube(1); } }", 1, true, false, 1);
+}
+
+// The preview evaluates render() and nothing else.
+static void render_leaves_out_what_bounds_nothing(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        uint32_t leaves, warnings;
+    } cases[] = {{MIXED "cube(1);", 2, 0},
+                 {"render() { " MIXED "}", 1, 0},
+                 {"render() { " MIXED "cube(1); }", 1, 1},
+                 {"render() { " MIXED "%cube(1); }", 1, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct subject s;
+        make(&s, MODEL_PREVIEW, cases[i].text);
+        assert_int_equal(s.model.bodies[0].leaf_count, cases[i].leaves);
+        assert_int_equal(s.messages.warnings, cases[i].warnings);
+        drop(&s);
+    }
+}
+
 static void flat_models_are_one_outline(void **state)
 {
     (void)state;
@@ -214,7 +259,7 @@ static void modes_share_a_store(void **state)
         messages_free(&messages);
     }
     assert_int_equal(leaves[0], 3);
-    assert_int_equal(leaves[1], 2); // the flat one is left out
+    assert_int_equal(leaves[1], 1); // left out: the polyhedron, partly inside out, the flat one
     assert_int_equal(leaves[2], 3);
     assert_int_equal(leaves[3], 3);
     assert_true(models[0].bodies[0].leaves[0].solid == models[1].bodies[0].leaves[0].solid);
@@ -232,6 +277,8 @@ int main(void)
         cmocka_unit_test(rendered_objects_are_one_shape),
         cmocka_unit_test(geometry_has_no_colours_and_marks),
         cmocka_unit_test(the_first_object_decides_the_dimension),
+        cmocka_unit_test(meshes_that_bound_nothing_stand_alone),
+        cmocka_unit_test(render_leaves_out_what_bounds_nothing),
         cmocka_unit_test(flat_models_are_one_outline),
         cmocka_unit_test(a_single_shape_may_count_as_several),
         cmocka_unit_test(modes_share_a_store),
