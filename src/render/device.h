@@ -79,8 +79,7 @@ void device_delete(struct device *d); // NULL: nothing to do
 
 // Fills *out (arrays of width * height, owned by the caller). `drawn`, unless NULL, is called for
 // rectangles that cover the picture, each pixel once, when their surfaces are there, from several
-// threads at once; `nothing` says that no pixel of it has a surface. NULL stats:
-// nobody asks.
+// threads at once; `nothing` says that no pixel of it has a surface. NULL stats: nobody asks.
 void device_first_surface(struct device *d, const struct body *body, const struct rays *rays,
                           const struct render_settings *settings, struct surface_image *out,
                           void (*drawn)(void *context, struct pixel_rect rect, bool nothing),
@@ -99,7 +98,8 @@ bool device_failed(struct device *d, struct error *why);
 
 // What makes a device: the functions above, with the same contracts, but that they return how many
 // rows from the top are done and told, and that stats are never NULL. Fewer than all: the device
-// has failed, *err says why, and it will be asked no more. Each device begins with a struct device.
+// has failed, *err says why, and it will be asked no more. A frame that was cancelled counts as
+// done. Each device begins with a struct device.
 struct device_kind {
     int (*first_surface)(struct device *d, const struct body *body, const struct rays *rays,
                          const struct render_settings *settings, struct surface_image *out,

@@ -5,9 +5,10 @@
 
 #include <stdlib.h>
 
-static void print_device(FILE *out, const struct comparison *c, const struct picture *p, int i)
+void report_device(FILE *out, const struct rays *rays, const struct picture *p, int x, int y)
 {
-    double reference = c->rays->reference;
+    double reference = rays->reference;
+    int i = y * rays->width + x;
     if (p->image.leaf[i] == SURFACE_NONE)
         fprintf(out, "  device surface: none\n");
     else
@@ -25,7 +26,7 @@ static void print_device(FILE *out, const struct comparison *c, const struct pic
 
 void report_pixel(FILE *out, const struct comparison *c, const struct picture *p, int x, int y)
 {
-    print_device(out, c, p, y * c->rays->width + x);
+    report_device(out, c->rays, p, x, y);
     fprintf(out, "  oracle spans (%u):", c->answer.count);
     for (uint32_t k = 0; k < c->answer.count; k++)
         fprintf(out, " [%.6f .. %.6f]", c->answer.spans[k].enter.low, c->answer.spans[k].leave.low);
@@ -44,14 +45,14 @@ struct judgement {
     enum fit reason;
 };
 
-static struct judgement judge(const struct random_scene *scene,
+static struct judgement judge(struct device *device, const struct random_scene *scene,
                               const struct render_settings *settings, int x, int y, FILE *out)
 {
     struct subject subject;
     struct picture picture;
     struct oracle oracle;
     subject_make(&subject, scene);
-    picture_render(&picture, &subject.body, &scene->rays, settings);
+    picture_render(&picture, device, &subject.body, &scene->rays, settings);
     struct oracle_leaf *leaves = subject_leaves(&subject.body);
     oracle_init(&oracle, leaves, scene->leaf_count, scene->tokens, scene->token_count);
     struct comparison c = {
@@ -123,10 +124,10 @@ static void print_scene(FILE *out, const struct random_scene *s)
     print_expression(out, s);
 }
 
-void report_smallest(FILE *out, struct random_scene *scene, const struct render_settings *settings,
-                     int x, int y)
+void report_smallest(FILE *out, struct device *device, struct random_scene *scene,
+                     const struct render_settings *settings, int x, int y)
 {
-    struct judgement whole = judge(scene, settings, x, y, out);
+    struct judgement whole = judge(device, scene, settings, x, y, out);
     if (whole.verdict == VERDICT_AGREES)
         return;
     for (uint32_t i = 0; i < scene->token_count; i++) {
@@ -134,11 +135,11 @@ void report_smallest(FILE *out, struct random_scene *scene, const struct render_
         if (kept.op != EXPR_LEAF)
             continue;
         scene->tokens[i] = (struct expr_token){EXPR_UNION, 0};
-        struct judgement now = judge(scene, settings, x, y, NULL);
+        struct judgement now = judge(device, scene, settings, x, y, NULL);
         if (now.verdict != whole.verdict || now.reason != whole.reason)
             scene->tokens[i] = kept;
     }
     fprintf(out, "smallest:\n");
     print_scene(out, scene);
-    judge(scene, settings, x, y, out);
+    judge(device, scene, settings, x, y, out);
 }

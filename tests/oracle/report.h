@@ -5,9 +5,12 @@
 
 #include <stdio.h>
 
+// What a device says of a pixel.
+void report_device(FILE *out, const struct rays *rays, const struct picture *p, int x, int y);
+
 // Both answers at a pixel that was just compared, and the crossings of the ray.
 void report_pixel(FILE *out, const struct comparison *c, const struct picture *p, int x, int y);
 
 // Drops leaves while the pixel stays wrong, then prints leaves, expression and answers.
-void report_smallest(FILE *out, struct random_scene *scene, const struct render_settings *settings,
-                     int x, int y);
+void report_smallest(FILE *out, struct device *device, struct random_scene *scene,
+                     const struct render_settings *settings, int x, int y);

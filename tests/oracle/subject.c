@@ -1,7 +1,9 @@
 // subject.c - what is under test.
 #include "subject.h"
 
+#include "base/hash.h"
 #include "base/mem.h"
+#include "base/parallel.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -38,6 +40,14 @@ static void make_leaves(struct subject *s, const struct random_scene *scene)
     }
 }
 
+// A device may know a solid by it, from tree to tree.
+static uint64_t content_hash(const struct random_mesh *m)
+{
+    uint64_t hash =
+        hash_bytes(m->convex, m->mesh.vertices, m->mesh.vertex_count * sizeof *m->mesh.vertices);
+    return hash_bytes(hash, m->mesh.triangles, m->mesh.triangle_count * sizeof *m->mesh.triangles);
+}
+
 void subject_make(struct subject *out, const struct random_scene *scene)
 {
     uint32_t n = scene->leaf_count;
@@ -47,7 +57,8 @@ void subject_make(struct subject *out, const struct random_scene *scene)
     for (uint32_t i = 0; i < scene->mesh_count; i++) {
         struct mesh copy;
         shape_copy(&copy, &scene->meshes[i].mesh);
-        solid_from_mesh(&out->solids[i], &copy, scene->meshes[i].convex, i + 1);
+        solid_from_mesh(&out->solids[i], &copy, scene->meshes[i].convex,
+                        content_hash(&scene->meshes[i]));
     }
     b->leaf_count = n;
     b->leaves = mem_zalloc(n * sizeof *b->leaves);
@@ -103,6 +114,22 @@ struct expr_token *subject_tokens(const struct expr *e, size_t *count)
     return tokens;
 }
 
+void crew_init(struct crew *out, uint32_t threads)
+{
+    out->count = parallel_workers(threads);
+    out->devices = mem_alloc(out->count * sizeof(struct device *));
+    for (uint32_t i = 0; i < out->count; i++)
+        out->devices[i] = cpu_device_new();
+}
+
+void crew_free(struct crew *c)
+{
+    for (uint32_t i = 0; i < c->count; i++)
+        device_delete(c->devices[i]);
+    free(c->devices);
+    *c = (struct crew){0};
+}
+
 struct collector {
     struct picture *picture;
     int width;
@@ -125,8 +152,8 @@ static void collect(void *context, uint32_t worker, const struct span_block *blo
         }
 }
 
-void picture_render(struct picture *out, const struct body *body, const struct rays *rays,
-                    const struct render_settings *settings)
+void picture_render(struct picture *out, struct device *device, const struct body *body,
+                    const struct rays *rays, const struct render_settings *settings)
 {
     size_t n = (size_t)rays->width * (size_t)rays->height;
     *out = (struct picture){.image = {.width = rays->width, .height = rays->height}};
@@ -135,11 +162,9 @@ void picture_render(struct picture *out, const struct body *body, const struct r
     out->image.face = mem_zalloc(n * sizeof *out->image.face);
     out->spans = mem_zalloc(n * sizeof *out->spans);
     struct collector c = {out, rays->width};
-    struct device *device = cpu_device_new();
     device_first_surface(device, body, rays, settings, &out->image, NULL, NULL,
                          &out->surface_stats);
     device_spans(device, body, rays, settings, collect, &c, &out->span_stats);
-    device_delete(device);
 }
 
 void picture_free(struct picture *p)

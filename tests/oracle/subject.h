@@ -17,6 +17,14 @@ void subject_free(struct subject *s); // leaves {0}
 struct oracle_leaf *subject_leaves(const struct body *body);
 struct expr_token *subject_tokens(const struct expr *e, size_t *count);
 
+// A device for each worker of parallel_for.
+struct crew {
+    struct device **devices;
+    uint32_t count;
+};
+void crew_init(struct crew *out, uint32_t threads);
+void crew_free(struct crew *c); // leaves {0}
+
 struct pixel_spans {
     struct span *items;
     uint32_t count, visits;
@@ -28,7 +36,7 @@ struct picture {
     struct render_stats surface_stats, span_stats;
 };
 
-void picture_render(struct picture *out, const struct body *body, const struct rays *rays,
-                    const struct render_settings *settings);
+void picture_render(struct picture *out, struct device *device, const struct body *body,
+                    const struct rays *rays, const struct render_settings *settings);
 void picture_free(struct picture *p); // leaves {0}
 bool picture_equal(const struct picture *a, const struct picture *b, int *x, int *y);

@@ -2,23 +2,18 @@
 //
 //   test_oracle random [--count N] [--seed N] [--threads N]   random trees, pixel by pixel
 //   test_oracle random --seed N --pixel X Y                   one pixel, with the fewest leaves
-//   test_oracle threads | memory | walks                      the same picture whatever the
-//   settings test_oracle FILE.csg WIDTH HEIGHT                         a file from several sides
+//   test_oracle threads | memory | walks                      one picture whatever the settings
+//   test_oracle FILE.csg WIDTH HEIGHT                         a file from several sides
+//   test_oracle agree random [--count N] ...                  two ways to draw, not the oracle
+//   test_oracle agree FILE.csg WIDTH HEIGHT ...
+#include "agree_runs.h"
 #include "base/mem.h"
 #include "base/parallel.h"
-#include "csg/csg.h"
 #include "report.h"
+#include "sides.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-struct options {
-    uint32_t count, threads;
-    uint64_t seed;
-    bool one_pixel;
-    enum walk walk;
-    int x, y;
-};
 
 struct outcome {
     uint64_t pixels, hits, verdicts[VERDICTS];
@@ -61,17 +56,18 @@ static void compare_picture(struct outcome *out, struct comparison *c, const str
     out->open += p->surface_stats.open_rays + p->span_stats.open_rays;
 }
 
-static void compare_body(struct outcome *out, const struct body *body, const struct rays *rays,
-                         const struct expr_token *tokens, size_t token_count,
-                         const struct render_settings *settings, double tolerance)
+static void compare_side(struct outcome *out, struct device *device, const struct side *side,
+                         const struct expr_token *tokens, size_t token_count)
 {
     struct picture picture;
     struct oracle oracle;
-    struct oracle_leaf *leaves = subject_leaves(body);
-    picture_render(&picture, body, rays, settings);
-    oracle_init(&oracle, leaves, body->leaf_count, tokens, token_count);
-    struct comparison c = {
-        .oracle = &oracle, .rays = rays, .epsilon = settings->epsilon, .tolerance = tolerance};
+    struct oracle_leaf *leaves = subject_leaves(side->body);
+    picture_render(&picture, device, side->body, &side->rays, &side->settings);
+    oracle_init(&oracle, leaves, side->body->leaf_count, tokens, token_count);
+    struct comparison c = {.oracle = &oracle,
+                           .rays = &side->rays,
+                           .epsilon = side->settings.epsilon,
+                           .tolerance = side->tolerance};
     compare_picture(out, &c, &picture);
     compare_free(&c);
     oracle_free(&oracle);
@@ -81,21 +77,22 @@ static void compare_body(struct outcome *out, const struct body *body, const str
 
 struct job {
     const struct options *options;
+    struct crew crew;
     struct outcome *outcomes;
 };
 
 static void compare_seed(void *context, uint32_t item, uint32_t worker)
 {
-    (void)worker;
     const struct job *job = context;
     struct outcome *out = &job->outcomes[item];
     struct random_scene scene;
     struct subject subject;
+    struct side side;
     random_scene_make(&scene, job->options->seed + item);
     subject_make(&subject, &scene);
-    struct render_settings settings = {
-        .epsilon = scene.epsilon, .threads = 1, .walk = job->options->walk};
-    compare_body(out, &subject.body, &scene.rays, scene.tokens, scene.token_count, &settings, 2e-3);
+    side_of_scene(&side, &scene, &subject.body);
+    side.settings.walk = job->options->walk;
+    compare_side(out, job->crew.devices[worker], &side, scene.tokens, scene.token_count);
     out->aligned = scene.aligned;
     subject_free(&subject);
     random_scene_free(&scene);
@@ -169,8 +166,10 @@ static void print_seed(uint64_t seed, const struct outcome *o)
 static int run_random(const struct options *options)
 {
     struct outcome *outcomes = mem_zalloc(options->count * sizeof *outcomes);
-    struct job job = {options, outcomes};
+    struct job job = {.options = options, .outcomes = outcomes};
+    crew_init(&job.crew, options->threads);
     parallel_for(options->count, options->threads, compare_seed, &job);
+    crew_free(&job.crew);
     struct outcome sum[2] = {{0}, {0}};
     uint32_t shown[4] = {0}, empty = 0;
     for (uint32_t i = 0; i < options->count; i++) {
@@ -203,7 +202,9 @@ static int run_pixel(const struct options *options)
         .epsilon = scene.epsilon, .threads = 1, .walk = options->walk};
     printf("seed %llu, %u leaves, pixel %d %d of %d x %d\n", (unsigned long long)options->seed,
            scene.leaf_count, options->x, options->y, scene.rays.width, scene.rays.height);
-    report_smallest(stdout, &scene, &settings, options->x, options->y);
+    struct device *device = cpu_device_new();
+    report_smallest(stdout, device, &scene, &settings, options->x, options->y);
+    device_delete(device);
     random_scene_free(&scene);
     return 0;
 }
@@ -234,7 +235,9 @@ static int run_same(const char *name, const struct render_settings *settings, in
             struct picture *p = k ? &other : &first;
             struct render_settings s = settings[k];
             s.epsilon = scene.epsilon;
-            picture_render(p, &subject.body, &scene.rays, &s);
+            struct device *device = cpu_device_new();
+            picture_render(p, device, &subject.body, &scene.rays, &s);
+            device_delete(device);
             int x, y;
             size_t bytes = p->surface_stats.peak_bytes > p->span_stats.peak_bytes
                                ? p->surface_stats.peak_bytes
@@ -261,93 +264,29 @@ static int run_same(const char *name, const struct render_settings *settings, in
     return different ? 1 : 0;
 }
 
-static struct rays look_at(struct box box, int width, int height, int view)
+struct file_job {
+    struct device *device;
+    int failed;
+};
+
+static void judge_side(void *context, const struct side *side)
 {
-    static const struct vec3 from[4] = {{0.5, -0.7, 0.5}, {0, 0, 1}, {-0.3, 0.9, -0.2}, {1, 0, 0}};
-    struct vec3 centre = vec3_scale(vec3_add(box.min, box.max), 0.5);
-    double size = vec3_length(vec3_sub(box.max, box.min)), distance = 2 * size;
-    struct vec3 forward = vec3_scale(vec3_normalized(from[view]), -1);
-    struct vec3 up = fabs(forward.z) > 0.9 ? (struct vec3){0, 1, 0} : (struct vec3){0, 0, 1};
-    struct vec3 right = vec3_normalized(vec3_cross(forward, up));
-    struct vec3 down = vec3_cross(forward, right);
-    struct rays r = {.orthographic = view % 2, .width = width, .height = height};
-    double step = (r.orthographic ? size : 0.5) / (height < width ? height : width);
-    r.step_x = vec3_scale(right, step);
-    r.step_y = vec3_scale(down, step);
-    struct vec3 corner = vec3_add(vec3_scale(r.step_x, -0.5 * (width - 1) + 0.0123),
-                                  vec3_scale(r.step_y, -0.5 * (height - 1) + 0.0321));
-    r.origin = vec3_sub(centre, vec3_scale(forward, distance));
-    r.forward = forward;
-    if (r.orthographic)
-        r.origin = vec3_add(r.origin, corner);
-    else
-        r.forward = vec3_add(r.forward, corner);
-    r.near = 1e-3 * size;
-    r.far = 10 * size;
-    r.reference = distance;
-    return r;
+    struct file_job *job = context;
+    struct outcome o = {.explain = true};
+    size_t token_count;
+    struct expr_token *tokens = subject_tokens(&side->body->expr, &token_count);
+    compare_side(&o, job->device, side, tokens, token_count);
+    print_outcome(side->name, &o);
+    job->failed += !acceptable(&o, side->aligned);
+    free(tokens);
 }
 
-static int run_file(const char *path, int width, int height)
+static int run_file(const struct options *o)
 {
-    struct messages messages = {0};
-    struct csg_tree tree;
-    if (!csg_parse_file(&tree, path, &messages)) {
-        messages_print(&messages, stderr);
-        messages_free(&messages);
-        return 1;
-    }
-    struct model_options options = MODEL_DEFAULTS;
-    struct solid_store *store = solid_store_new();
-    struct model model;
-    model_build(&model, &tree, store, &options, &messages);
-    struct render_settings settings = {.epsilon = model_epsilon(&model, options.epsilon)};
-    struct vec3 size = vec3_sub(model.bounds.max, model.bounds.min);
-    double tolerance = fmax(2e-3, 2e-6 * vec3_length(size));
-    int failed = 0;
-    for (uint32_t b = 0; b < model.body_count; b++)
-        for (int view = 0; view < 4; view++) {
-            const struct body *body = &model.bodies[b];
-            struct rays rays = look_at(model.bounds, width, height, view);
-            struct outcome o = {.explain = true};
-            size_t token_count;
-            struct expr_token *tokens = subject_tokens(&body->expr, &token_count);
-            compare_body(&o, body, &rays, tokens, token_count, &settings, tolerance);
-            char name[64];
-            snprintf(name, sizeof name, "body %u view %d", b, view);
-            print_outcome(name, &o);
-            failed += !acceptable(&o, view % 2);
-            free(tokens);
-        }
-    messages_free(&messages);
-    model_free(&model);
-    solid_store_delete(store);
-    csg_free(&tree);
-    return failed ? 1 : 0;
-}
-
-static int parse_options(struct options *o, int argc, char **argv)
-{
-    for (int i = 2; i < argc; i++) {
-        int left = argc - i - 1;
-        if (!strcmp(argv[i], "--count") && left >= 1) {
-            o->count = (uint32_t)strtoul(argv[++i], NULL, 10);
-        } else if (!strcmp(argv[i], "--threads") && left >= 1) {
-            o->threads = (uint32_t)strtoul(argv[++i], NULL, 10);
-        } else if (!strcmp(argv[i], "--hash")) {
-            o->walk = WALK_HASH;
-        } else if (!strcmp(argv[i], "--seed") && left >= 1) {
-            o->seed = strtoull(argv[++i], NULL, 10);
-        } else if (!strcmp(argv[i], "--pixel") && left >= 2) {
-            o->x = atoi(argv[++i]);
-            o->y = atoi(argv[++i]);
-            o->one_pixel = true;
-        } else {
-            fprintf(stderr, "test_oracle: cannot use '%s'\n", argv[i]);
-            return 1;
-        }
-    }
-    return 0;
+    struct file_job job = {.device = cpu_device_new()};
+    bool read = sides_of_file(o->file, o->width, o->height, judge_side, &job);
+    device_delete(job.device);
+    return read && !job.failed ? 0 : 1;
 }
 
 int main(int argc, char **argv)
@@ -357,17 +296,18 @@ int main(int argc, char **argv)
     static const struct render_settings memory[] = {{.threads = 2},
                                                     {.threads = 2, .memory = 16 << 20}};
     static const struct render_settings walks[] = {{.walk = WALK_HASH}, {.walk = WALK_ARRAY}};
-    if (argc == 4 && strchr(argv[1], '.'))
-        return run_file(argv[1], atoi(argv[2]), atoi(argv[3]));
-    const char *mode = argc > 1 ? argv[1] : "random";
-    if (!strcmp(mode, "threads"))
-        return run_same(mode, threads, array_count(threads), 40, 8);
-    if (!strcmp(mode, "memory"))
-        return run_same(mode, memory, array_count(memory), 16, 24);
-    if (!strcmp(mode, "walks"))
-        return run_same(mode, walks, array_count(walks), 40, 2);
-    struct options options = {.count = 2000};
-    if (parse_options(&options, argc, argv))
+    struct options options = {0};
+    if (!options_parse(&options, argc, argv))
         return 2;
+    if (options.agree)
+        return options.file ? agree_file(&options) : agree_random(&options);
+    if (options.file)
+        return run_file(&options);
+    if (!strcmp(options.mode, "threads"))
+        return run_same(options.mode, threads, array_count(threads), 40, 8);
+    if (!strcmp(options.mode, "memory"))
+        return run_same(options.mode, memory, array_count(memory), 16, 24);
+    if (!strcmp(options.mode, "walks"))
+        return run_same(options.mode, walks, array_count(walks), 40, 2);
     return options.one_pixel ? run_pixel(&options) : run_random(&options);
 }

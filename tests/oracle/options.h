@@ -1,0 +1,18 @@
+// options.h - what test_oracle is asked to do.
+#pragma once
+#include "render/device.h"
+
+struct options {
+    bool agree; // compare two ways to draw
+    const char *mode;
+    const char *file; // NULL: random trees
+    int width, height;
+    uint32_t count, threads;
+    uint64_t seed;
+    bool one_pixel;
+    int x, y;
+    enum walk walk;
+    size_t memory;
+};
+
+bool options_parse(struct options *out, int argc, char **argv); // false: it has said what is wrong
