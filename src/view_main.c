@@ -2,7 +2,7 @@
 #include "app/viewer.h"
 #include "base/mem.h"
 #include "base/options.h"
-#include "render/scheme_file.h"
+#include "render/scheme_choose.h"
 
 #include <errno.h>
 #include <signal.h>

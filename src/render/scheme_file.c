@@ -7,7 +7,6 @@
 #include <cjson/cJSON.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { FILE_MOST = 1 << 20 };
 
@@ -79,28 +78,39 @@ static struct place place_of(const char *path, const char *text, const char *at)
     return p;
 }
 
-bool scheme_read(struct scheme *out, const char *path, struct error *err)
+static cJSON *load(const char *path, struct error *err)
 {
     char *text;
     size_t size;
     if (!file_read(path, FILE_MOST, &text, &size, err))
-        return false;
+        return NULL;
     const char *end = text;
     cJSON *root = cJSON_ParseWithLengthOpts(text, size + 1, &end, true);
+    if (!root)
+        error_at(err, place_of(path, text, end), "not JSON");
+    free(text);
+    return root;
+}
+
+bool scheme_read(struct scheme *out, const char *path, struct error *err)
+{
+    cJSON *root = load(path, err);
     struct scheme s = {.name = path};
     bool ok = root && read_colours(&s, root, path, err);
     if (ok)
         *out = s;
-    else if (!root)
-        error_at(err, place_of(path, text, end), "not JSON");
     cJSON_Delete(root);
-    free(text);
     return ok;
 }
 
-const struct scheme *scheme_choose(const char *name, struct scheme *own, struct error *err)
+bool scheme_read_name(char *out, size_t size, const char *path, struct error *err)
 {
-    if (!strchr(name, '/') && strcasecmp(file_extension(name), "json") != 0)
-        return scheme_find(name, err);
-    return scheme_read(own, name, err) ? own : NULL;
+    cJSON *root = load(path, err);
+    const char *name = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(root, "name"));
+    if (name)
+        snprintf(out, size, "%s", name);
+    else if (root)
+        error_set(err, "%s: not a colour scheme: there is no \"name\"", path);
+    cJSON_Delete(root);
+    return name;
 }

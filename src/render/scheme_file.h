@@ -2,9 +2,9 @@
 #pragma once
 #include "render/scheme.h"
 
+#include <stddef.h>
+
 // out->name is the path, borrowed.
 bool scheme_read(struct scheme *out, const char *path, struct error *err);
-
-// Of a name with a slash or the extension .json the file, read into *own; else the scheme of
-// OpenSCAD's that is called so. NULL with *err when there is none.
-const struct scheme *scheme_choose(const char *name, struct scheme *own, struct error *err);
+// The name that the file gives its scheme, cut to fit.
+bool scheme_read_name(char *out, size_t size, const char *path, struct error *err);

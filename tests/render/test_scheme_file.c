@@ -1,4 +1,5 @@
 // test_scheme_file.c - colour schemes in OpenSCAD's JSON files.
+#include "render/scheme_choose.h"
 #include "render/scheme_file.h"
 
 #include <setjmp.h>
