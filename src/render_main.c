@@ -1,5 +1,6 @@
 // render_main.c - hcsg-render: options, then one call.
 #include "command/command.h"
+#include "command/info.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -29,6 +30,8 @@ int main(int argc, char **argv)
     case OPTIONS_RUN:
         break;
     }
+    if (given.info)
+        return info_print(&err) ? EXIT_FINE : command_fail(&err, EXIT_OUTPUT);
     return request_make(&request, &given, &err) ? command_run(&request)
                                                 : command_fail(&err, EXIT_INPUT);
 }

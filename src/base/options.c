@@ -26,7 +26,7 @@ static const struct option *at(const struct program *p, uint32_t i)
 // The option and its value as they stand in argv; value NULL: none was attached.
 struct given {
     const struct option *option;
-    const char *word; // for messages
+    char label[40]; // "--threads" or "-j", for messages
     const char *value;
 };
 
@@ -73,39 +73,84 @@ static void set_unknown(const struct program *p, const char *name, size_t length
         error_set(err, "unknown option --%.*s; --help lists them", (int)length, name);
 }
 
-// Splits one word of argv that starts with a dash.
-static bool recognise(const struct program *p, const char *word, struct given *out,
-                      struct error *err)
+// The option whose name begins with these bytes, of those that may be shortened.
+static const struct option *find_shortened(const struct program *p, const char *name, size_t length,
+                                           struct error *err)
 {
-    *out = (struct given){.word = word};
-    if (word[1] == '-') {
-        const char *name = word + 2;
-        size_t length = strcspn(name, "=");
-        for (uint32_t i = 0; i < total(p) && !out->option; i++) {
-            const struct option *o = at(p, i);
-            if (o->name && strlen(o->name) == length && memcmp(o->name, name, length) == 0)
-                out->option = o;
+    const struct option *found = NULL;
+    for (uint32_t i = 0; i < total(p) && length && p->shortened_count; i++) {
+        const struct option *o = at(p, i);
+        bool own = i >= p->shortened_count && i < p->option_count;
+        if (own || !o->name || strncmp(o->name, name, length) != 0)
+            continue;
+        if (found) {
+            error_set(err, "--%.*s is short for --%s and --%s", (int)length, name, found->name,
+                      o->name);
+            return NULL;
         }
-        if (name[length])
-            out->value = name + length + 1;
-        if (!out->option)
-            set_unknown(p, name, length, err);
-        return out->option;
+        found = o;
     }
-    for (uint32_t i = 0; i < total(p) && !out->option; i++)
-        if (at(p, i)->letter == word[1])
-            out->option = at(p, i);
-    if (word[2])
-        out->value = word + 2;
-    if (!out->option)
-        error_set(err, "unknown option -%c; --help lists them", word[1]);
-    return out->option;
+    if (!found)
+        set_unknown(p, name, length, err);
+    return found;
 }
 
-// "--threads" or "-o", as the user wrote it.
-static int shown(const struct given *g)
+// A word that starts with two dashes. A letter without a name may stand there as well.
+static bool recognise_name(const struct program *p, const char *word, struct given *out,
+                           struct error *err)
 {
-    return g->word[1] == '-' ? (int)strcspn(g->word, "=") : 2;
+    const char *name = word + 2;
+    size_t length = strcspn(name, "=");
+    *out = (struct given){.value = name[length] ? name + length + 1 : NULL};
+    for (uint32_t i = 0; i < total(p) && !out->option; i++) {
+        const struct option *o = at(p, i);
+        if (o->name ? strlen(o->name) == length && memcmp(o->name, name, length) == 0
+                    : length == 1 && *name == o->letter)
+            out->option = o;
+    }
+    if (!out->option)
+        out->option = find_shortened(p, name, length, err);
+    if (!out->option)
+        return false;
+    if (out->option->name)
+        snprintf(out->label, sizeof out->label, "--%s", out->option->name);
+    else
+        snprintf(out->label, sizeof out->label, "--%c", out->option->letter);
+    return true;
+}
+
+// Whether the word is the name of an option that lacks a dash.
+static bool lacks_dash(const struct program *p, const char *word)
+{
+    size_t length = strcspn(word + 1, "=");
+    bool lacks = false;
+    for (uint32_t i = 0; i < total(p); i++) {
+        const char *name = at(p, i)->name;
+        lacks |= name && strlen(name) == length && memcmp(name, word + 1, length) == 0;
+    }
+    return lacks;
+}
+
+// A letter behind one dash. What follows it is its value, or further letters behind flags.
+static bool recognise_letter(const struct program *p, const char *word, const char *letter,
+                             struct given *out, struct error *err)
+{
+    bool name = lacks_dash(p, word);
+    *out = (struct given){0};
+    for (uint32_t i = 0; i < total(p) && !out->option; i++)
+        if (at(p, i)->letter == *letter)
+            out->option = at(p, i);
+    if (!out->option || name) {
+        error_set(err,
+                  name ? "unknown option %s; did you mean -%s?"
+                       : "unknown option %s; --help lists them",
+                  word, word);
+        return false;
+    }
+    snprintf(out->label, sizeof out->label, "-%c", *letter);
+    if (letter[1] && out->option->kind != OPTION_FLAG)
+        out->value = letter + 1;
+    return true;
 }
 
 static bool store_number(const struct given *g, struct error *err)
@@ -115,13 +160,13 @@ static bool store_number(const struct given *g, struct error *err)
     double v = strtod(g->value, &end);
     bool whole = o->kind == OPTION_COUNT;
     if (end == g->value || *end || !isfinite(v) || (whole && v != floor(v))) {
-        error_set(err, "%.*s: expected a %s, got '%s'", shown(g), g->word,
-                  whole ? "whole number" : "number", g->value);
+        error_set(err, "%s: expected a %s, got '%s'", g->label, whole ? "whole number" : "number",
+                  g->value);
         return false;
     }
     if (v < o->least || v > o->most) {
-        error_set(err, "%.*s: expected %.15g to %.15g, got %s", shown(g), g->word, o->least,
-                  o->most, g->value);
+        error_set(err, "%s: expected %.15g to %.15g, got %s", g->label, o->least, o->most,
+                  g->value);
         return false;
     }
     if (whole)
@@ -145,8 +190,8 @@ static bool store_size(const struct given *g, struct error *err)
     }
     double low = (double)(w < h ? w : h), high = (double)(w > h ? w : h);
     if (!ok || low < o->least || high > o->most) {
-        error_set(err, "%.*s: expected WIDTH,HEIGHT from %.15g to %.15g, got '%s'", shown(g),
-                  g->word, o->least, o->most, g->value);
+        error_set(err, "%s: expected WIDTH,HEIGHT from %.15g to %.15g, got '%s'", g->label,
+                  o->least, o->most, g->value);
         return false;
     }
     int *size = o->target;
@@ -159,7 +204,7 @@ static bool store_item(const struct given *g, struct error *err)
 {
     struct option_list *list = g->option->target;
     if (list->count == OPTION_LIST_MOST) {
-        error_set(err, "%.*s: given more than %d times", shown(g), g->word, OPTION_LIST_MOST);
+        error_set(err, "%s: given more than %d times", g->label, OPTION_LIST_MOST);
         return false;
     }
     list->items[list->count++] = g->value;
@@ -188,7 +233,7 @@ static bool store(const struct given *g, struct error *err)
     switch (g->option->kind) {
     case OPTION_FLAG:
         if (g->value) {
-            error_set(err, "%.*s takes no value", shown(g), g->word);
+            error_set(err, "%s takes no value", g->label);
             return false;
         }
         *(bool *)g->option->target = true;
@@ -252,13 +297,34 @@ static enum options_result explain(const struct program *p, bool help, struct er
     return OPTIONS_WRONG;
 }
 
+// Gives the option its value, if need be the next word, and stores it.
+static bool take(struct given *g, char ***rest, struct error *err)
+{
+    const struct option *o = g->option;
+    char *next = **rest;
+    bool wanted =
+        o->kind == OPTION_OPTIONAL ? next && is_choice(next, o->argument) : o->kind != OPTION_FLAG;
+    if (!g->value && wanted) {
+        if (!next) {
+            error_set(err, "%s: expected %s after it", g->label, o->argument);
+            return false;
+        }
+        g->value = next;
+        (*rest)++;
+    }
+    if (!g->value && o->kind == OPTION_OPTIONAL)
+        g->value = "";
+    return store(g, err);
+}
+
 enum options_result options_parse(const struct program *p, int argc, char **argv, int *operands,
                                   struct error *err)
 {
     int kept = 0;
     bool ended = false;
-    for (int i = 1; i < argc; i++) {
-        char *word = argv[i];
+    char **rest = argv + (argc > 0);
+    while (*rest) {
+        char *word = *rest++;
         if (ended || word[0] != '-' || !word[1]) {
             argv[1 + kept++] = word;
             continue;
@@ -267,24 +333,17 @@ enum options_result options_parse(const struct program *p, int argc, char **argv
             ended = true;
             continue;
         }
+        const char *letter = word[1] == '-' ? NULL : word + 1;
         struct given g;
-        if (!recognise(p, word, &g, err))
-            return OPTIONS_WRONG;
-        if (g.option == &common[0] || g.option == &common[1])
-            return explain(p, g.option == &common[0], err);
-        if (g.option->kind == OPTION_OPTIONAL && !g.value) {
-            bool named = i + 1 < argc && is_choice(argv[i + 1], g.option->argument);
-            g.value = named ? argv[++i] : "";
-        }
-        if (g.option->kind != OPTION_FLAG && !g.value) {
-            if (i + 1 == argc) {
-                error_set(err, "%.*s: expected %s after it", shown(&g), word, g.option->argument);
+        do {
+            if (!(letter ? recognise_letter(p, word, letter, &g, err)
+                         : recognise_name(p, word, &g, err)))
                 return OPTIONS_WRONG;
-            }
-            g.value = argv[++i];
-        }
-        if (!store(&g, err))
-            return OPTIONS_WRONG;
+            if (g.option->target && !take(&g, &rest, err))
+                return OPTIONS_WRONG;
+            if (!g.option->target)
+                return explain(p, g.option == &common[0], err);
+        } while (letter && !g.value && *++letter);
     }
     *operands = kept;
     return OPTIONS_RUN;

@@ -36,6 +36,8 @@ struct program {
     const char *operands; // "FILE"
     const struct option *options;
     uint32_t option_count;
+    // The first so many, and --help and --version, may be shortened to what fits one of them alone.
+    uint32_t shortened_count;
 };
 
 enum options_result {
@@ -44,7 +46,7 @@ enum options_result {
     OPTIONS_WRONG, // *err says why
 };
 
-// "--name=value", "--name value", "-o value", "-ovalue"; "--" ends the options, "-" is an operand.
-// Moves the operands, in their order, to argv[1 .. 1 + *operands).
+// "--name=value", "--name value", "-o value", "-ovalue", "-qo value"; "--" ends the options, "-" is
+// an operand. Moves the operands, in their order, to argv[1 .. 1 + *operands).
 enum options_result options_parse(const struct program *p, int argc, char **argv, int *operands,
                                   struct error *err);

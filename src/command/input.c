@@ -19,11 +19,31 @@ static void print_log(const char *log, bool quiet)
     }
 }
 
-// What of the options openscad has to know.
-static void set_arguments(struct scad_options *o, const char **arguments, const struct request *r,
-                          bool asks_view)
+struct call {
+    const char *arguments[2 * OPTION_LIST_MOST + 2 * PASSED_MOST + 16];
+    const char *unknown[4]; // options that this openscad does not have
+    uint32_t unknown_count;
+    bool asks_view;
+};
+
+static bool is_unknown(const struct call *call, const char *option)
 {
+    bool found = false;
+    for (uint32_t i = 0; i < call->unknown_count; i++)
+        found |= strcmp(call->unknown[i], option) == 0;
+    return found;
+}
+
+// What of the options openscad has to know.
+static struct scad_options set_arguments(struct call *call, const struct request *r)
+{
+    const char **arguments = call->arguments;
     uint32_t n = 0;
+    for (uint32_t i = 0; i < r->passed_count; i++)
+        if (!is_unknown(call, r->passed[i].option)) {
+            arguments[n++] = r->passed[i].option;
+            arguments[n++] = r->passed[i].value;
+        }
     for (uint32_t i = 0; i < r->definitions.count; i++) {
         arguments[n++] = "-D";
         arguments[n++] = r->definitions.items[i];
@@ -35,19 +55,49 @@ static void set_arguments(struct scad_options *o, const char **arguments, const 
             arguments[n++] = more[i][0];
             arguments[n++] = more[i][1];
         }
-    if (asks_view) {
+    if (call->asks_view) {
         arguments[n++] = "-D";
         arguments[n++] = SCAD_VIEW_DEFINITION;
     }
     if (r->mode == MODEL_RENDER)
         arguments[n++] = "--render=force"; // without a value it would take the file for one
-    *o = (struct scad_options){r->openscad, arguments, n, r->frames};
+    return (struct scad_options){r->openscad, arguments, n, r->frames};
 }
 
-static bool export_scad(struct input *out, const struct request *r, struct error *err)
+// Which of the options that are passed on openscad has refused, NULL without one.
+static const char *refused(const struct call *call, const struct request *r, const char *log)
 {
-    const char *arguments[2 * OPTION_LIST_MOST + 16];
-    struct scad_options options;
+    for (uint32_t i = 0; i < r->passed_count; i++) {
+        char line[64];
+        snprintf(line, sizeof line, "unrecognised option '%s'", r->passed[i].option);
+        if (!is_unknown(call, r->passed[i].option) && strstr(log, line))
+            return r->passed[i].option;
+    }
+    return NULL;
+}
+
+// Versions of openscad differ in what they know: without it most designs come out the same.
+static bool call_openscad(struct call *call, struct input *out, const struct request *r,
+                          struct messages *messages, struct error *err)
+{
+    for (;;) {
+        struct scad_options options = set_arguments(call, r);
+        if (scad_export(r->input, &options, &out->scad, err))
+            return true;
+        const char *option = refused(call, r, out->scad.log ? out->scad.log : "");
+        if (!option)
+            return false;
+        messages_add(messages, MESSAGE_WARNING, (struct place){.file = r->input},
+                     "openscad does not know %s and goes without", option);
+        call->unknown[call->unknown_count++] = option;
+        scad_result_free(&out->scad);
+    }
+}
+
+static bool export_scad(struct input *out, const struct request *r, struct messages *messages,
+                        struct error *err)
+{
+    struct call call = {0};
     struct stat st;
     if (stat(r->input, &st) != 0 || access(r->input, R_OK) != 0) {
         error_set(err, "%s: %s", r->input, strerror(errno));
@@ -57,14 +107,14 @@ static bool export_scad(struct input *out, const struct request *r, struct error
         error_set(err, "%s: is a folder, not a file", r->input);
         return false;
     }
-    bool asks = !r->camera_given && scad_view_is_named(r);
-    set_arguments(&options, arguments, r, asks);
-    if (!scad_export(r->input, &options, &out->scad, err))
+    call.asks_view = !r->camera_given && scad_view_is_named(r);
+    if (!call_openscad(&call, out, r, messages, err))
         return false;
-    if (!asks && !r->camera_given && scad_view_was_set(&out->scad)) { // by a file that it includes
+    if (!call.asks_view && !r->camera_given &&
+        scad_view_was_set(&out->scad)) { // by a file that it includes
         scad_result_free(&out->scad);
-        set_arguments(&options, arguments, r, true);
-        if (!scad_export(r->input, &options, &out->scad, err))
+        call.asks_view = true;
+        if (!call_openscad(&call, out, r, messages, err))
             return false;
     }
     uint32_t frames = r->frames ? r->frames : 1;
@@ -91,7 +141,7 @@ bool input_open(struct input *out, const struct request *r, struct messages *mes
     *out = (struct input){0};
     if (!r->is_scad)
         note_useless(r, messages);
-    else if (!export_scad(out, r, &err)) {
+    else if (!export_scad(out, r, messages, &err)) {
         messages_add(messages, MESSAGE_ERROR, (struct place){0}, "%s", err.text);
         return false;
     }

@@ -5,7 +5,10 @@
 #include "command/summary_parts.h"
 #include "render/shot.h"
 
-enum { SIDE_MOST = 32768, FRAMES_MOST = 99999 };
+#include <assert.h>
+#include <string.h>
+
+enum { SIDE_MOST = 32768, FRAMES_MOST = 99999, OPENSCAD_OPTIONS = 30 };
 
 enum options_result given_parse(struct given *out, int argc, char **argv, struct error *err)
 {
@@ -42,8 +45,9 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
          "also draw these: axes, scales (on axes), crosshairs, edges,\nwireframe (with --render)",
          &out->view, 0, 0},
         {"colorscheme", 0, OPTION_TEXT, "NAME",
-         "Cornfield (default), another of OpenSCAD's, or a file FILE.json with one", &out->scheme,
-         0, 0},
+         "Cornfield (default), another of OpenSCAD's or of yours (see the manual),\nor a file "
+         "FILE.json with one",
+         &out->scheme, 0, 0},
         {"preview", 0, OPTION_OPTIONAL, "throwntogether",
          "the preview (default), or each shape whole and back faces magenta", &out->preview, 0, 0},
         {"render", 0, OPTION_OPTIONAL, "cgal|force",
@@ -62,7 +66,32 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
         {"animate", 0, OPTION_COUNT, "N",
          "write N pictures of a .scad with $t from 0 to 1, numbered in front\n"
          "of the extension: x00000.png ...",
-         &out->frames, 1, FRAMES_MOST},
+         &out->frames, 0, FRAMES_MOST},
+        {"hardwarnings", 0, OPTION_FLAG, NULL, "write nothing when there is a warning",
+         &out->hard_warnings, 0, 0},
+        {"quiet", 'q', OPTION_FLAG, NULL, "say nothing but errors", &out->quiet, 0, 0},
+        {"summary", 0, OPTION_OPTIONAL, SUMMARY_NAMES,
+         "print these numbers about model and picture; without names\nall but area and volume",
+         &out->summary, 0, 0},
+        {"summary-file", 0, OPTION_TEXT, "FILE",
+         "write them there as JSON instead; - is standard output", &out->summary_file, 0, 0},
+        {"info", 0, OPTION_FLAG, NULL, "print what hcsg is made of and what draws here", &out->info,
+         0, 0},
+        {"enable", 0, OPTION_LIST, "FEATURE",
+         "for openscad, which gets it with a .scad; one that does not know it\ngoes without",
+         &out->features, 0, 0},
+        {"check-parameters", 0, OPTION_TEXT, "true|false", "the same: check arguments of modules",
+         &out->check_parameters, 0, 0},
+        {"check-parameter-ranges", 0, OPTION_TEXT, "true|false", "the same: check their values",
+         &out->check_ranges, 0, 0},
+        {"debug", 0, OPTION_TEXT, "FILE",
+         "the same: say more of what happens in a source file of openscad", &out->debug, 0, 0},
+        {"backend", 0, OPTION_TEXT, "NAME",
+         "accepted and not needed: nothing is evaluated to a mesh", &out->backend, 0, 0},
+        {NULL, 's', OPTION_LIST, "FILE", "the same as -o, and deprecated, as -x", &out->old_outputs,
+         0, 0},
+        {NULL, 'x', OPTION_LIST, "FILE", "the same as -o", &out->old_outputs, 0, 0},
+        // Beyond OpenSCAD's: these cannot be shortened
         {"openscad", 0, OPTION_TEXT, "PROGRAM",
          "exports .scad files; if not given $OPENSCAD, or openscad on the PATH", &out->openscad, 0,
          0},
@@ -106,16 +135,8 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
         {"import-dir", 0, OPTION_LIST, "DIR",
          "look there for imported files that are not beside FILE;\nmay be given several times",
          &out->import_folders, 0, 0},
-        {"hardwarnings", 0, OPTION_FLAG, NULL, "write nothing when there is a warning",
-         &out->hard_warnings, 0, 0},
-        {"quiet", 'q', OPTION_FLAG, NULL, "say nothing but errors", &out->quiet, 0, 0},
-        {"summary", 0, OPTION_OPTIONAL, SUMMARY_NAMES,
-         "print these numbers about model and picture; without names\nall but area and volume",
-         &out->summary, 0, 0},
         {"density", 0, OPTION_NUMBER, "G", "print the mass too, of a material of G grams per cm3",
          &out->density, 1e-9, 1e9},
-        {"summary-file", 0, OPTION_TEXT, "FILE",
-         "write them there as JSON instead; - is standard output", &out->summary_file, 0, 0},
     };
     const struct program program = {
         .name = "hcsg-render",
@@ -125,6 +146,8 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
         .operands = "FILE",
         .options = options,
         .option_count = array_count(options),
+        .shortened_count = OPENSCAD_OPTIONS,
     };
+    assert(strcmp(options[OPENSCAD_OPTIONS].name, "openscad") == 0);
     return options_parse(&program, argc, argv, &out->operand_count, err);
 }

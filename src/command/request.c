@@ -2,7 +2,9 @@
 #include "command/request.h"
 
 #include "base/file.h"
+#include "base/mem.h"
 #include "command/parameters.h"
+#include "render/scheme_choose.h"
 
 #include <string.h>
 #include <strings.h>
@@ -21,6 +23,36 @@ static bool set_input(struct request *out, const struct given *given, struct err
     if (!*out->input)
         error_set(err, "expected the name of an input file, got ''");
     return *out->input;
+}
+
+static bool is_truth(const char *text)
+{
+    static const char *const words[] = {"true", "false", "on", "off", "1", "0"};
+    bool found = false;
+    for (size_t i = 0; i < array_count(words); i++)
+        found |= strcasecmp(text, words[i]) == 0;
+    return found;
+}
+
+static bool set_passed(struct request *out, const struct given *given, struct error *err)
+{
+    const struct passed checks[] = {
+        {"--check-parameters", given->check_parameters},
+        {"--check-parameter-ranges", given->check_ranges},
+        {"--debug", given->debug},
+    };
+    for (size_t i = 0; i < array_count(checks); i++) {
+        const struct passed *one = &checks[i];
+        if (one->value && one->value != given->debug && !is_truth(one->value)) {
+            error_set(err, "%s: expected true or false, got '%s'", one->option, one->value);
+            return false;
+        }
+        if (one->value)
+            out->passed[out->passed_count++] = *one;
+    }
+    for (uint32_t i = 0; i < given->features.count; i++)
+        out->passed[out->passed_count++] = (struct passed){"--enable", given->features.items[i]};
+    return true;
 }
 
 // openscad goes on with the defaults after what is wrong here.
@@ -86,12 +118,19 @@ static bool set_outputs(struct request *out, const struct given *given, struct e
         error_set(err, "--export-format: expected %s, got '%s'", names, given->export_format);
         return false;
     }
-    if (!given->outputs.count && !out->summary && !given->reference) {
+    uint32_t named = given->outputs.count, old = given->old_outputs.count;
+    if (!named && !old && !out->summary && !given->reference) {
         error_set(err, "no output; give -o FILE.png");
         return false;
     }
-    for (uint32_t i = 0; i < given->outputs.count; i++) {
-        const char *path = file_or_stream(given->outputs.items[i]);
+    if (old && !given->quiet)
+        fputs(
+            "DEPRECATED: -s and -x; -o FILE.stl or -o FILE.dxf writes the geometry of one object, "
+            "-o FILE.png a picture of any\n",
+            stderr);
+    for (uint32_t i = 0; i < named + old; i++) {
+        const char *path = file_or_stream(i < named ? given->outputs.items[i]
+                                                    : given->old_outputs.items[i - named]);
         const char *extension = file_extension(path);
         if (!*path) {
             error_set(err, "--output: expected the name of a file, got ''");
@@ -226,7 +265,7 @@ bool request_make(struct request *out, const struct given *given, struct error *
                             .hard_warnings = given->hard_warnings,
                             .quiet = given->quiet};
     if (!set_input(out, given, err) || !set_openscad(out, given, err) ||
-        !set_mode(out, given, err) || !check_device(given, err))
+        !set_passed(out, given, err) || !set_mode(out, given, err) || !check_device(given, err))
         return false;
     out->view = view_parse(given->view);
     out->scheme = scheme_choose(given->scheme, &out->own_scheme, err);

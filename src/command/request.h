@@ -6,7 +6,7 @@
 #include "command/summary_parts.h"
 #include "command/view.h"
 #include "render/camera.h"
-#include "render/scheme_file.h"
+#include "render/scheme.h"
 
 enum { PIXELS_MOST = 1 << 26 };
 
@@ -19,13 +19,21 @@ struct output {
     const struct output_format *format;
 };
 
+// An option that means something to openscad alone.
+struct passed {
+    const char *option, *value; // value NULL: not given
+};
+enum { PASSED_MOST = OPTION_LIST_MOST + 3 };
+
 struct request {       // borrows from the command line
     const char *input; // "-": standard input
     bool is_scad;
     // For openscad, and what is done for it with a .csg
     const char *openscad, *parameter_file, *parameter_set, *make_command; // NULL: not given
     struct option_list definitions;
-    struct output outputs[OPTION_LIST_MOST];
+    struct passed passed[PASSED_MOST];
+    uint32_t passed_count;
+    struct output outputs[2 * OPTION_LIST_MOST];
     uint32_t output_count;
     int width, height;
     struct camera camera;

@@ -166,7 +166,9 @@ void scad_error(const struct scad_result *r, struct error *err)
     const char *last = "failed without a message", *log = r->log;
     last_length = strlen(last);
     for (const char *line; (line = next_line(&log, &length));)
-        if (length) {
+        if (begins(line, length, "Usage:")) // what was wrong stands above
+            break;
+        else if (length) {
             last = line;
             last_length = length;
         }

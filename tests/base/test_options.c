@@ -28,8 +28,9 @@ static const struct option options[] = {
     {"show", 0, OPTION_OPTIONAL, "all|time|box", "what to say", &shown, 0, 0},
     {NULL, 'D', OPTION_LIST, "VAR=VALUE", "set a variable", &defined, 0, 0},
 };
-static const struct program program = {"tool", "1.2.3", "Does things.",
-                                       "FILE", options, array_count(options)};
+enum { SHORTENED = 4 }; // not --scale, --size and --show
+static const struct program program = {
+    "tool", "1.2.3", "Does things.", "FILE", options, array_count(options), SHORTENED};
 
 enum { WORDS = 8 };
 static char *words[WORDS + 2];
@@ -86,6 +87,29 @@ static void accepts_all_forms(void **state)
     assert_int_equal(parse("", &err), OPTIONS_RUN);
 }
 
+// As boost::program_options does for openscad
+static void accepts_shortened_names_and_joined_letters(void **state)
+{
+    (void)state;
+    struct error err;
+    assert_int_equal(parse("--out x --thre=7 --c y", &err), OPTIONS_RUN);
+    assert_string_equal(output, "x");
+    assert_string_equal(scheme, "y");
+    assert_int_equal(threads, 7);
+    assert_int_equal(operands, 0);
+    assert_int_equal(parse("--D a=1 --D=b=2", &err), OPTIONS_RUN); // letters without a name
+    assert_int_equal(defined.count, 2);
+    assert_string_equal(defined.items[1], "b=2");
+    assert_int_equal(parse("-Vo x -VVj5 y", &err), OPTIONS_RUN);
+    assert_true(verbose);
+    assert_string_equal(output, "x");
+    assert_int_equal(threads, 5);
+    assert_int_equal(operands, 1);
+    assert_int_equal(parse("-oV", &err), OPTIONS_RUN);
+    assert_string_equal(output, "V");
+    assert_false(verbose);
+}
+
 static void values_may_be_left_out(void **state)
 {
     (void)state;
@@ -121,8 +145,16 @@ static void says_what_is_wrong(void **state)
         const char *line, *text;
     } rows[] = {
         {"--colourscheme=x", "unknown option --colourscheme; did you mean --colorscheme?"},
-        {"--thread 3", "unknown option --thread; did you mean --threads?"},
-        {"--color red", "unknown option --color; did you mean --colorscheme?"},
+        {"--color red x -o", "-o: expected FILE after it"},
+        {"--thread x", "--threads: expected a whole number, got 'x'"},
+        {"--sho", "unknown option --sho; did you mean --show?"},
+        {"--ver", "--ver is short for --verbose and --version"},
+        {"--V", "unknown option --V; --help lists them"},
+        {"-verbose", "unknown option -verbose; did you mean --verbose?"},
+        {"-size=3,4", "unknown option -size=3,4; did you mean --size=3,4?"},
+        {"-zV", "unknown option -zV; --help lists them"},
+        {"-Vz", "unknown option -Vz; --help lists them"},
+        {"-Vo", "-o: expected FILE after it"},
         {"--scal 1", "unknown option --scal; did you mean --scale?"},
         {"--sh", "unknown option --sh; --help lists them"},
         {"--halp", "unknown option --halp; did you mean --help?"},
@@ -133,7 +165,7 @@ static void says_what_is_wrong(void **state)
         {"--output", "--output: expected FILE after it"},
         {"-o", "-o: expected FILE after it"},
         {"--verbose=1", "--verbose takes no value"},
-        {"-Vx", "-V takes no value"},
+        {"-V=1", "unknown option -V=1; --help lists them"},
         {"--threads=x", "--threads: expected a whole number, got 'x'"},
         {"--threads=", "--threads: expected a whole number, got ''"},
         {"--threads=1.5", "--threads: expected a whole number, got '1.5'"},
@@ -210,8 +242,11 @@ static void help_shows_the_table(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(accepts_all_forms),    cmocka_unit_test(values_may_be_left_out),
-        cmocka_unit_test(says_what_is_wrong),   cmocka_unit_test(long_unknown_names_are_cheap),
+        cmocka_unit_test(accepts_all_forms),
+        cmocka_unit_test(accepts_shortened_names_and_joined_letters),
+        cmocka_unit_test(values_may_be_left_out),
+        cmocka_unit_test(says_what_is_wrong),
+        cmocka_unit_test(long_unknown_names_are_cheap),
         cmocka_unit_test(help_shows_the_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

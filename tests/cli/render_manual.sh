@@ -11,7 +11,7 @@ if ! cmp -s help.$$ manual.$$; then
 fi
 rm -f help.$$ manual.$$
 
-"$render" --colorscheme=none -o x.png x.csg 2>&1 | sed 's/.*there are: //; s/, /\n/g' |
+HOME=/none XDG_CONFIG_HOME=/none "$render" --colorscheme=none -o x.png x.csg 2>&1 | sed 's/.*there are: //; s/, /\n/g' |
     while read -r scheme; do
         grep -q "^\.Cm $scheme\b" "$manual" || echo "FAILED: the manual lacks the scheme $scheme"
     done | grep . && failed=1

@@ -144,7 +144,7 @@ expect '-p sets.json: expected the name' -p sets.json a.scad
 expect "--render: expected nothing, cgal or force, got 'x'" --render=x a.scad
 expect "--preview: expected nothing or throwntogether, got 'x'" --preview=x a.scad
 expect '--animate: standard output' --animate=2 -o - a.scad
-expect '--animate: expected 1 to 99999' --animate=0 a.scad
+expect '--animate: expected 0 to 99999' --animate=-1 a.scad
 mkdir folder.scad
 expect 'folder.scad: is a folder' folder.scad
 expect 'gone.scad: No such file' gone.scad
