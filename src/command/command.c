@@ -38,8 +38,17 @@ static int write_outputs(const struct request *r, const struct drawn *d, const s
     return code;
 }
 
+struct run {
+    struct input input;
+    struct solid_store *store; // frames have much in common
+    struct device *device;
+    struct rule rule;
+    struct messages messages; // of the frame
+    double began;
+};
+
 // Draws and writes the views that have files of their own.
-static int write_views(const struct request *r, const struct model *m)
+static int write_views(struct run *run, const struct request *r, const struct model *m)
 {
     int code = EXIT_FINE;
     for (uint32_t i = 0; i < r->style.views.count; i++) {
@@ -48,7 +57,7 @@ static int write_views(const struct request *r, const struct model *m)
         struct drawn drawn;
         if (!request_draws(r, view) && !request_maps(r, view))
             continue;
-        if (!drawn_make(&drawn, r, m, view, &err))
+        if (!drawn_make(&drawn, run->device, r, m, view, &err))
             return command_fail(&err, EXIT_INPUT);
         int one = write_outputs(r, &drawn, view);
         code = one ? one : code;
@@ -74,17 +83,17 @@ static int tell_summary(const struct summary *s)
     return command_fail(&err, EXIT_OUTPUT);
 }
 
-static int produce(const struct request *r, const struct model *m, const struct messages *messages,
-                   struct timing *times, double *lap_start)
+static int produce(struct run *run, const struct request *r, const struct model *m,
+                   struct timing *times)
 {
     struct error err;
     struct drawn drawn = {0};
-    if (!drawn_make(&drawn, r, m, NULL, &err))
+    if (!drawn_make(&drawn, run->device, r, m, NULL, &err))
         return command_fail(&err, EXIT_INPUT);
-    times->draw = lap(lap_start);
-    int code = write_outputs(r, &drawn, NULL), views = write_views(r, m);
+    times->draw = lap(&run->began);
+    int code = write_outputs(r, &drawn, NULL), views = write_views(run, r, m);
     code = code ? code : views;
-    times->write = lap(lap_start);
+    times->write = lap(&run->began);
     if (code == EXIT_FINE && r->style.reference) {
         code = reference_check(r, &drawn, &err);
         if (code)
@@ -92,7 +101,7 @@ static int produce(const struct request *r, const struct model *m, const struct 
     }
     if ((code == EXIT_FINE || code == EXIT_CHECK) && r->summary) {
         struct summary summary = {
-            .request = r, .model = m, .messages = messages, .drawn = &drawn, .times = *times};
+            .request = r, .model = m, .messages = &run->messages, .drawn = &drawn, .times = *times};
         summary_measure(&summary);
         int told = tell_summary(&summary);
         code = code ? code : told;
@@ -119,14 +128,6 @@ static bool stops_at_warnings(const struct request *r, const struct messages *me
     return true;
 }
 
-struct run {
-    struct input input;
-    struct solid_store *store; // frames have much in common
-    struct rule rule;
-    struct messages messages; // of the frame
-    double began;
-};
-
 static int run_frame(struct run *run, struct request *r, uint32_t number)
 {
     int code = EXIT_INPUT;
@@ -144,7 +145,7 @@ static int run_frame(struct run *run, struct request *r, uint32_t number)
     times.build = lap(&run->began);
     print_messages(r, &run->messages);
     if (read && !stops_at_warnings(r, &run->messages))
-        code = produce(r, &model, &run->messages, &times, &run->began);
+        code = produce(run, r, &model, &times);
     if (code == EXIT_FINE && r->rule)
         rule_note(&run->rule, r, &run->input, &model);
     model_free(&model);
@@ -170,12 +171,14 @@ static int run_frames(struct run *run, const struct request *r)
 int command_run(const struct request *r)
 {
     int code = EXIT_INPUT;
-    struct run run = {.store = solid_store_new(), .began = clock_seconds()};
+    struct run run = {
+        .store = solid_store_new(), .device = cpu_device_new(), .began = clock_seconds()};
     if (input_open(&run.input, r, &run.messages))
         code = run_frames(&run, r);
     else
         print_messages(r, &run.messages);
     input_free(&run.input);
+    device_delete(run.device);
     solid_store_delete(run.store);
     rule_free(&run.rule);
     messages_free(&run.messages);

@@ -129,13 +129,13 @@ static void want_edges(struct drawn *d)
     d->shot.picture.bare = v->wireframe;
 }
 
-bool drawn_make(struct drawn *out, const struct request *r, const struct model *m,
-                const struct view *view, struct error *err)
+bool drawn_make(struct drawn *out, struct device *device, const struct request *r,
+                const struct model *m, const struct view *view, struct error *err)
 {
     struct drawn d = {
         .request = r,
         .model = m,
-        .device = cpu_device_new(),
+        .device = device,
         .settings = {.epsilon = model_epsilon(m, r->epsilon),
                      .threads = r->threads,
                      .memory = r->memory},
@@ -164,7 +164,6 @@ bool drawn_make(struct drawn *out, const struct request *r, const struct model *
 
 void drawn_free(struct drawn *d)
 {
-    device_delete(d->device);
     layers_delete(d->layers);
     facets_delete(d->facets);
     shader_free(&d->shader);

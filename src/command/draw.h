@@ -8,7 +8,7 @@
 struct drawn { // {0} is valid
     const struct request *request;
     const struct model *model;
-    struct device *device;
+    struct device *device; // borrowed
     struct shader shader;
     struct layers *layers;
     struct facets *facets; // when edges show
@@ -27,6 +27,6 @@ struct drawn { // {0} is valid
 };
 
 // Draws one view alone, or with NULL what is not a file per view.
-bool drawn_make(struct drawn *out, const struct request *r, const struct model *m,
-                const struct view *view, struct error *err);
+bool drawn_make(struct drawn *out, struct device *device, const struct request *r,
+                const struct model *m, const struct view *view, struct error *err);
 void drawn_free(struct drawn *d); // leaves {0}
