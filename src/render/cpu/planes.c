@@ -44,7 +44,7 @@ static void make_planes(struct tile *t, const struct planes *p, const struct loc
     v4d yx = v4_set(r->step_y.x), yy = v4_set(r->step_y.y), yz = v4_set(r->step_y.z);
     // A plane seen edge-on, or with the eye on it, is crossed far in front by rays inside of it and
     // never by rays outside. A ray in the plane itself is taken as moved down by 1e-4 pixels and
-    // left by 1e-5, more than the rounding of a float key: mesh.c decides the same way, so
+    // left by 1e-5, more than the rounding of a float key: mesh_scan.c decides the same way, so
     // neighbouring solids agree.
     v4d tiny = v4_set(orthographic ? -1e-25 : 1e-25), scale = v4_set(r->scale);
     v4d least = v4_set(orthographic ? 1e-13 * vec3_length(r->direction)
