@@ -69,6 +69,7 @@ static bool draw_map(struct drawn *d, const struct view *view, struct error *err
     if (!place_camera(d, view, r->width, r->height, err))
         return false;
     d->rays = camera_rays(&d->camera, r->width, r->height, d->model->bounds);
+    d->map.model_only = true;
     map_draw(&d->map, d->device, d->model, &d->rays, &d->settings, &stats);
     render_stats_add(&d->stats, &stats);
     return true;

@@ -215,7 +215,10 @@ void body_build(struct body *out, enum body_kind kind, struct builder *b,
                 const struct model_options *options, const uint32_t *terms, uint32_t term_count,
                 struct box *intersected)
 {
-    *out = (struct body){.kind = kind, .borders = options->mode == MODEL_RENDER};
+    *out = (struct body){
+        .kind = kind, .part = kind == BODY_MAIN, .borders = options->mode == MODEL_RENDER};
+    for (uint32_t i = 0; i < term_count && kind == BODY_HIGHLIGHT; i++)
+        out->part |= b->scene.terms[terms[i]].taken_out;
     struct emitter e = {.b = b, .body = out};
     emit_all(&e, terms, term_count);
     restrict_leaves(out, e.intersected, options->roi, intersected);

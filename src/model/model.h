@@ -43,6 +43,7 @@ struct body {
     // nodes where it is the same.
     struct expr whole;
     struct sharing sharing;
+    bool part;       // of the model: the main body, and what a # took out of it
     bool borders;    // of faces in one plane that of a subtracted leaf shows where the place is not
                      // solid with all borders of leaves, else another one: OpenSCAD's geometry
     struct box *roi; // per leaf

@@ -80,7 +80,9 @@ static uint32_t fold_union(struct scene *s, uint32_t left, uint32_t right)
             scene_mark(s, t, CSG_HIGHLIGHT);
         return t;
     }
-    scene_show_apart(s, left_marked ? left : right);
+    uint32_t marked = left_marked ? left : right;
+    s->terms[marked].taken_out = true;
+    scene_show_apart(s, marked);
     return left_marked ? right : left;
 }
 

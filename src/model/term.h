@@ -11,6 +11,7 @@ struct term {
     uint8_t op;       // enum term_op
     uint8_t marks;    // CSG_BACKGROUND, CSG_HIGHLIGHT
     bool highlighted; // was marked #, whatever became of the mark
+    bool taken_out;   // of a union, as it was marked #: it is part of the model all the same
     bool rendered;    // came from render(): its cut faces look like its others
     uint32_t left;    // operand; LEAF: number of the leaf
     uint32_t right;   // operand

@@ -77,6 +77,8 @@ void map_draw(struct map *m, struct device *device, const struct model *model,
     for (uint32_t b = 0; b < model->body_count; b++) {
         struct layer l = {m, b};
         struct render_stats one = {0};
+        if (m->model_only && !model->bodies[b].part)
+            continue;
         if (b)
             reserve(&m->scratch, rays->width, rays->height);
         device_first_surface(device, &model->bodies[b], rays, settings,

@@ -1,11 +1,13 @@
 // map.h - what each pixel shows, as numbers: depth, normal and leaf of its nearest surface.
 //
-// All bodies count that the picture shows; a see-through object is where it is.
+// All bodies count that the picture shows, or those that are part of the model: without what is
+// marked %, and without the tools that a # shows. A see-through object is where it is.
 #pragma once
 #include "render/device.h"
 #include "render/shade.h"
 
-struct map { // {0} is valid; buffers are kept from drawing to drawing
+struct map {         // {0} is valid; buffers are kept from drawing to drawing
+    bool model_only; // of the bodies those that are part of the model
     struct surface_image surface;
     uint32_t *body;               // of the leaf
     struct surface_image scratch; // of one body, when there are several

@@ -82,11 +82,9 @@ void map_ids(const struct map *m, const struct model *model, uint8_t *rgb)
 
 static void print_leaf(FILE *out, const struct body *body, uint32_t leaf, uint64_t number)
 {
-    static const char *const kinds[] = {
-        [BODY_MAIN] = "", [BODY_BACKGROUND] = " background", [BODY_HIGHLIGHT] = " highlight"};
     struct place p = body->leaves[leaf].place;
     fprintf(out, "#%06x %s:%u:%u%s\n", id_colour(number), p.file ? p.file : "-", p.line, p.column,
-            kinds[body->kind]);
+            body->kind == BODY_HIGHLIGHT ? " highlight" : "");
 }
 
 char *map_legend(const struct map *m, const struct model *model)

@@ -23,6 +23,6 @@ void map_greys(const struct map *m, const struct rays *rays, struct depth_range 
 void map_normal_colours(const float (*normals)[3], size_t pixels, uint8_t *rgb);
 // A colour of its own for each leaf, the same in every view; black where nothing is.
 void map_ids(const struct map *m, const struct model *model, uint8_t *rgb);
-// The leaves that show, in the order of the file, a line each: "#rrggbb file:line:column" and, when
-// it is marked, "background" or "highlight". The caller frees it.
+// The leaves that show, body after body in the order of the file, a line each: "#rrggbb
+// file:line:column" and, when it is marked #, "highlight". The caller frees it.
 char *map_legend(const struct map *m, const struct model *model);

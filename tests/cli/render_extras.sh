@@ -98,6 +98,10 @@ floats=$(tail -c 6400 pfm | od -An -v -tf4 -w4 | sort -u | tr -s '\n ' ' ')
 colour=$(pixel ids 25,20 | awk -F, '{ printf "#%02x%02x%02x", $1, $2, $3 }')
 identify -format '%[Legend]' ids | grep -q "^$colour steps.csg:1:" || fault 'ids: legend'
 "$render" --imgsize=9,9 -o depths.pfm steps.csg || fault 'pfm by its extension'
+echo '%cube(size = [10, 10, 9]);' | cat steps.csg - >marked.csg
+# shellcheck disable=SC2086
+"$render" $above --export-format=pfm -o marked.pfm marked.csg
+cmp -s pfm marked.pfm || fault 'pfm: what is marked % counts'
 
 # Readable shapes are bit-identical too.
 "$render" --shading=ao,outline --samples=2 --threads=1 --imgsize=99,99 -o a.png steps.csg

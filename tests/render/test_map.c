@@ -162,9 +162,34 @@ static void nearest_body_counts(void **state)
          "cube(size=[4,4,5]);\n%cube(size=[4,4,1]);\n");
     assert_int_equal(m.body[at(0, 0)], 0);
     assert_int_not_equal(m.body[at(3, 0)], 0);
-    char *legend = map_legend(&m, &s.model);
-    char *line = strchr(legend, '\n') + 1;
-    assert_string_equal(strchr(line, ' '), " unit.csg:2:56 background\n");
+    map_free(&m);
+    stage_free(&s);
+}
+
+// A plate of 12 x 12 with a hole that a # shows, on its right a cube with a #, beside it one with a
+// %.
+static void marks_are_no_part_of_the_model(void **state)
+{
+    (void)state;
+    struct stage s;
+    struct map m = {.model_only = true};
+    float depths[PIXELS];
+    draw(&s, &m,
+         "difference() { multmatrix([[1,0,0,-6],[0,1,0,-6],[0,0,1,0],[0,0,0,1]]) "
+         "cube(size=[12,12,2]);\n"
+         "#multmatrix([[1,0,0,-2],[0,1,0,-2],[0,0,1,1],[0,0,0,1]]) cube(size=[4,4,4]); }\n"
+         "#multmatrix([[1,0,0,4],[0,1,0,-1],[0,0,1,0],[0,0,0,1]]) cube(size=[2,2,5]);\n"
+         "%multmatrix([[1,0,0,5],[0,1,0,-1],[0,0,1,0],[0,0,0,1]]) cube(size=[3,2,6]);\n");
+    struct rays rays = rays_from_above(SIDE);
+    map_depths(&m, &rays, depths);
+    float plate = depths[at(-5, 0)];
+    assert_true(depths[at(0, 0)] == plate + 1);
+    assert_true(depths[at(4, 0)] == plate - 3);
+    assert_true(depths[at(5, 0)] == plate - 3);
+    assert_true(isinf(depths[at(7, 0)]));
+    char *legend = map_legend(&m, &s.model), *line = strrchr(legend, ' ');
+    assert_string_equal(line, " highlight\n");
+    assert_memory_equal(line - 13, "unit.csg:3:57", 13);
     free(legend);
     map_free(&m);
     stage_free(&s);
@@ -179,6 +204,7 @@ int main(void)
         cmocka_unit_test(normals_look_at_the_viewer),
         cmocka_unit_test(leaves_have_colours_and_a_legend),
         cmocka_unit_test(nearest_body_counts),
+        cmocka_unit_test(marks_are_no_part_of_the_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
