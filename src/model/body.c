@@ -54,6 +54,8 @@ static void put_leaf(struct emitter *e, uint32_t number, uint8_t stands)
     struct leaf leaf = e->b->scene.leaves[number];
     leaf.subtracted = stands & STANDS_PALE;
     leaf.highlighted = stands & STANDS_HIGHLIGHTED;
+    if (e->body->kind != BODY_MAIN)
+        leaf.grid = 0;
     if (leaf.flat && (stands & STANDS_SUBTRACTED)) // as OpenSCAD does, to cut what is as thick
         for (int i = 0; i < 3; i++)
             leaf.to_world.m[i][2] *= CUTTING_PLATE;
@@ -157,7 +159,9 @@ static void emit_all(struct emitter *e, const uint32_t *terms, uint32_t term_cou
     put_token(e, EXPR_UNION, term_count);
     free(e->todo);
     if (body->kind == BODY_MAIN) {
+        body->grids = s->grids;
         s->leaves = NULL;
+        s->grids = NULL;
         scene_free(s);
         body->leaves = mem_realloc(body->leaves, body->leaf_count * sizeof *body->leaves);
     }
@@ -242,5 +246,6 @@ void body_free(struct body *body)
         store_release(body->leaves[i].solid);
     free(body->leaves);
     free(body->roi);
+    free(body->grids);
     *body = (struct body){0};
 }

@@ -83,7 +83,7 @@ static struct value value_of(struct evaluation *e, const struct geometry *g)
     if (g->kind == GEOMETRY_FLAT)
         outline_copy(&v.outline, &g->outline);
     if (g->kind == GEOMETRY_SOLID)
-        v.term = scene_add(&e->b->scene, &g->scene, g->root);
+        v = value_of_term(&e->b->scene, scene_add(&e->b->scene, &g->scene, g->root));
     return v;
 }
 
@@ -94,7 +94,7 @@ static void visit_solid(struct evaluation *e, const struct args *args, const str
 {
     struct leaf leaf;
     struct value v = {.kind = GEOMETRY_SOLID, .term = TERM_EMPTY};
-    if (builder_leaf(e->b, args, type, matrix, &leaf))
+    if (builder_leaf(e->b, args, type, matrix, &v.placed, &leaf))
         v.term = scene_leaf(&e->b->scene, &leaf);
     push_value(e, v);
 }
@@ -251,6 +251,8 @@ static void leave(struct evaluation *e)
         l.type->combine(&o, &out);
         for (uint32_t i = l.first_leaf; i < e->b->scene.leaf_count; i++)
             e->b->scene.leaves[i].place = builder_place(e->b, l.node);
+        if (out.kind == GEOMETRY_SOLID)
+            out.placed = value_of_term(&e->b->scene, out.term).placed;
         if (e->level_count) {
             keep(e, &l, &out);
             operands_move(&o, &e->matrices[e->levels[e->level_count - 1].matrix]);
@@ -259,6 +261,8 @@ static void leave(struct evaluation *e)
         operands_fold(&o, l.type->operation, &out);
         if (l.type->kind == NODE_TRANSFORM && out.kind == GEOMETRY_FLAT)
             value_place(e->b, l.node, &out, &l.own);
+        if (l.type->kind == NODE_TRANSFORM && out.kind == GEOMETRY_SOLID)
+            out.placed = affine_mul(&l.own, &out.placed);
     }
     for (uint32_t i = l.first_value; i < e->value_count; i++)
         value_free(&e->values[i]);

@@ -19,6 +19,7 @@ struct leaf {
     bool subtracted;        // drawn in the scheme's cut colour when it has none of its own: stands
                             // under an odd number of subtractions
     bool highlighted;       // THROWN_TOGETHER: shown as what is marked #
+    uint32_t grid;          // RENDER: 1 + number of the body's grids, 0: not known
     struct place place;     // of the node in the file
     struct box box;         // in the world
 };
@@ -47,6 +48,9 @@ struct body {
     bool borders;    // of faces in one plane that of a subtracted leaf shows where the place is not
                      // solid with all borders of leaves, else another one: OpenSCAD's geometry
     struct box *roi; // per leaf
+    // From a leaf to the coordinates in which it meets others first: there OpenSCAD's geometry puts
+    // its corners onto a grid.
+    struct affine *grids;
     struct discovery *table;
 };
 

@@ -90,14 +90,14 @@ void builder_warn_too_large(struct builder *b, const struct csg_node *n)
 }
 
 bool builder_leaf(struct builder *b, const struct args *args, const struct node_type *type,
-                  const struct affine *matrix, struct leaf *out)
+                  const struct affine *matrix, struct affine *place, struct leaf *out)
 {
-    struct affine place = AFFINE_IDENTITY;
-    const struct solid *solid = type->shape(b, args, &place);
+    *place = AFFINE_IDENTITY;
+    const struct solid *solid = type->shape(b, args, place);
     if (!solid)
         return false;
     *out = (struct leaf){.solid = solid,
-                         .to_world = affine_mul(matrix, &place),
+                         .to_world = affine_mul(matrix, place),
                          .colour = {-1, -1, -1, -1},
                          .place = builder_place(b, args->node)};
     if (leaf_fits(out))

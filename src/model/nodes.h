@@ -53,10 +53,10 @@ void colour_of(struct builder *b, const struct args *args, float out[4]);
 void builder_warn_left_out(struct builder *b, const struct csg_node *n,
                            const struct node_type *type);
 
-// The leaf of a SHAPE node under a matrix, without a colour. False for the empty set, and with a
-// warning for what is too large to be drawn.
+// The leaf of a SHAPE node under a matrix, without a colour; `place` is where it stands without the
+// matrix. False for the empty set, and with a warning for what is too large to be drawn.
 bool builder_leaf(struct builder *b, const struct args *args, const struct node_type *type,
-                  const struct affine *matrix, struct leaf *out);
+                  const struct affine *matrix, struct affine *place, struct leaf *out);
 bool leaf_fits(const struct leaf *leaf); // is it small and near enough to be drawn?
 void builder_warn_too_large(struct builder *b, const struct csg_node *n);
 

@@ -81,6 +81,32 @@ static bool are_combined(const struct operands *o, enum term_op op)
     return count > 1;
 }
 
+static struct leaf *single_leaf(const struct scene *s, uint32_t term)
+{
+    bool is_leaf = term < TERM_EMPTY && s->terms[term].op == TERM_LEAF;
+    return is_leaf ? &s->leaves[s->terms[term].left] : NULL;
+}
+
+struct value value_of_term(const struct scene *s, uint32_t term)
+{
+    const struct leaf *leaf = single_leaf(s, term);
+    return (struct value){
+        .kind = GEOMETRY_SOLID, .term = term, .placed = leaf ? leaf->to_world : AFFINE_IDENTITY};
+}
+
+// Leaves that meet for the first time get their grid; one that meets nothing keeps its place.
+static void meet(struct operands *o, bool combined, struct value *out)
+{
+    for (uint32_t i = 0; i < o->count; i++) {
+        const struct value *v = &o->values[i];
+        const struct leaf *leaf = single_leaf(o->scene, solid_term(v));
+        if (leaf && combined && !leaf->grid)
+            scene_grid(o->scene, o->scene->terms[v->term].left, &v->placed);
+        if (leaf && !combined)
+            out->placed = v->placed;
+    }
+}
+
 void operands_fold(struct operands *o, enum term_op op, struct value *out)
 {
     out->kind = o->kind;
@@ -91,6 +117,7 @@ void operands_fold(struct operands *o, enum term_op op, struct value *out)
         return;
     uint32_t term = TERM_NONE;
     bool combined = are_combined(o, op);
+    meet(o, combined, out);
     for (uint32_t i = 0; i < o->count; i++) {
         uint32_t one = solid_term(&o->values[i]);
         term = scene_fold(o->scene, op, term, combined ? closed_term(o->b, one) : one);

@@ -8,6 +8,7 @@ struct value {
     enum geometry_kind kind;
     struct outline outline;
     uint32_t term;
+    struct affine placed; // SOLID of a single leaf: where it stands in the node's coordinates
 };
 
 // The children of a node, all flat or all solid, with those that are nothing in between.
@@ -26,6 +27,10 @@ void value_free(struct value *v); // leaves {0}: nothing
 // A leaf whose mesh bounds no solid becomes nothing, with a warning, as OpenSCAD has it where an
 // object is combined with others; alone it stays.
 uint32_t closed_term(struct builder *b, uint32_t term);
+
+// The value of a term as it is in the scene.
+struct value value_of_term(const struct scene *s, uint32_t term);
+
 // Folds the operands by an operation of CSG. Like all below it takes what it needs out of them.
 void operands_fold(struct operands *o, enum term_op op, struct value *out);
 // Moves the leaves of the operands.

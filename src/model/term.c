@@ -26,6 +26,13 @@ uint32_t scene_leaf(struct scene *s, const struct leaf *leaf)
     return add_term(s, (struct term){.op = TERM_LEAF, .left = s->leaf_count++});
 }
 
+void scene_grid(struct scene *s, uint32_t leaf, const struct affine *grid)
+{
+    array_reserve(&s->grids, &s->grid_room, (size_t)s->grid_count + 1);
+    s->grids[s->grid_count++] = *grid;
+    s->leaves[leaf].grid = s->grid_count;
+}
+
 void scene_mark(struct scene *s, uint32_t term, uint8_t marks)
 {
     if (term >= TERM_EMPTY)
@@ -170,7 +177,10 @@ uint32_t scene_add(struct scene *s, const struct scene *from, uint32_t term)
         t.marks = 0;
         array_reserve(&copies, &copy_room, (size_t)copy_count + 1);
         if (t.op == TERM_LEAF) {
-            copies[copy_count++] = scene_leaf(s, &from->leaves[t.left]);
+            const struct leaf *leaf = &from->leaves[t.left];
+            copies[copy_count++] = scene_leaf(s, leaf);
+            if (leaf->grid)
+                scene_grid(s, s->leaf_count - 1, &from->grids[leaf->grid - 1]);
         } else if (now.operands_done) {
             t.right = copies[--copy_count];
             t.left = copies[--copy_count];
@@ -191,6 +201,7 @@ uint32_t scene_add(struct scene *s, const struct scene *from, uint32_t term)
 void scene_free(struct scene *s)
 {
     free(s->leaves);
+    free(s->grids);
     free(s->terms);
     free(s->boxes);
     free(s->backgrounds.items);

@@ -25,6 +25,8 @@ struct term_list {
 struct scene {           // {0} is empty
     struct leaf *leaves; // what body.c adds to them is not there yet; a solid of NULL is empty
     uint32_t leaf_count, leaf_room;
+    struct affine *grids; // of leaves, see struct body
+    uint32_t grid_count, grid_room;
     struct term *terms;
     uint32_t term_count, term_room;
     struct box *boxes; // of the terms for which they were asked
@@ -34,6 +36,7 @@ struct scene {           // {0} is empty
 };
 
 uint32_t scene_leaf(struct scene *s, const struct leaf *leaf);
+void scene_grid(struct scene *s, uint32_t leaf, const struct affine *grid);
 void scene_mark(struct scene *s, uint32_t term, uint8_t marks);
 uint32_t scene_marks(const struct scene *s, uint32_t term);
 void scene_rendered(struct scene *s, uint32_t term);

@@ -150,9 +150,10 @@ static void visit_shape(struct walk *w, const struct csg_node *n, const struct n
     const struct frame *f = &w->frames[w->frame_count - 1];
     struct args args;
     struct leaf leaf;
+    struct affine place;
     uint32_t term = TERM_EMPTY;
     args_bind(&args, w->b, n, type->parameters, w->details[f->detail]);
-    if (builder_leaf(w->b, &args, type, &w->matrices[f->matrix], &leaf)) {
+    if (builder_leaf(w->b, &args, type, &w->matrices[f->matrix], &place, &leaf)) {
         memcpy(leaf.colour, w->colours[f->colour].c, sizeof leaf.colour);
         term = scene_leaf(&w->b->scene, &leaf);
     }

@@ -12,7 +12,7 @@
 struct cut_solid {
     const struct solid *solid;
     uint32_t *widest; // of each face, its largest triangle
-    // Of one with whole faces.
+    // Of one with whole faces, or convex.
     uint32_t *first;   // of each face in `corners`, and the end of the last
     uint32_t *corners; // around the faces: numbers of vertices
     // Of one with triangles.
@@ -128,7 +128,7 @@ static void prepare(struct cut_solid *d)
     struct box b = d->solid->bounds;
     d->nearby = NEARBY * vec3_length(vec3_sub(b.max, b.min));
     find_widest(d);
-    if (d->solid->cut != CUT_TRIANGLES)
+    if (d->solid->cut != CUT_TRIANGLES || d->solid->convex)
         find_borders(d);
     if (d->solid->cut != CUT_FACES)
         mesh_tree_build(&d->tree, &d->solid->mesh);
@@ -271,11 +271,26 @@ static bool is_whole(const struct solid *s, struct vec3 normal)
     return s->cut == CUT_FACES || (s->cut == CUT_CAPS && level) || (s->cut == CUT_SIDES && !level);
 }
 
+static const struct cut_solid *find(const struct facets *d, const struct solid *solid)
+{
+    const struct cut_solid key = {.solid = solid};
+    return bsearch(&key, d->items, d->count, sizeof *d->items, by_solid);
+}
+
+const uint32_t *facets_corners(const struct facets *d, const struct solid *solid, uint32_t face,
+                               uint32_t *count)
+{
+    if (!solid->convex)
+        return NULL;
+    const struct cut_solid *found = find(d, solid);
+    *count = found->first[face + 1] - found->first[face];
+    return found->corners + found->first[face];
+}
+
 bool facets_find(const struct facets *d, const struct solid *solid, uint32_t face,
                  struct vec3 origin, struct vec3 direction, struct facet *out)
 {
-    const struct cut_solid key = {.solid = solid};
-    const struct cut_solid *found = bsearch(&key, d->items, d->count, sizeof *d->items, by_solid);
+    const struct cut_solid *found = find(d, solid);
     struct facet widest = triangle_of(&solid->mesh, found->widest[face]);
     struct vec3 p = meet(origin, direction, widest.normal, widest.corners[0]);
     if (!is_whole(solid, widest.normal))

@@ -25,3 +25,8 @@ bool facets_find(const struct facets *d, const struct solid *solid, uint32_t fac
 // Shares of the corners where a line meets the plane of a triangle: they sum up to 1, and each is 0
 // on the side opposite to its corner. Not finite when the line lies in the plane.
 struct vec3 facets_shares(const struct facet *t, struct vec3 origin, struct vec3 direction);
+
+// The vertices around a face of a convex solid, counter-clockwise seen from outside. NULL for those
+// of other solids.
+const uint32_t *facets_corners(const struct facets *d, const struct solid *solid, uint32_t face,
+                               uint32_t *count);
