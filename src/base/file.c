@@ -84,6 +84,31 @@ static bool write_all(int fd, const char *data, size_t size)
     return true;
 }
 
+// A file in the folder of `path` that has no name yet: whatever ends the program, nothing stays
+// behind. -1 where there is no such thing.
+static int open_nameless(const char *path)
+{
+    char *folder = file_folder(path);
+    bool can_be_named = access("/proc/self/fd", X_OK) == 0;
+    int fd = can_be_named ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
+    free(folder);
+    return fd;
+}
+
+// Gives it a name beside `path`, which goes to `name`.
+static bool name_beside(int fd, const char *path, char *name, size_t size)
+{
+    char own[32];
+    bool ok = false;
+    snprintf(own, sizeof own, "/proc/self/fd/%d", fd);
+    errno = EEXIST;
+    for (unsigned i = 0; !ok && errno == EEXIST; i++) {
+        snprintf(name, size, "%s.%d-%u", path, (int)getpid(), i);
+        ok = linkat(AT_FDCWD, own, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+    }
+    return ok;
+}
+
 // A new file beside `path`; its name goes to `name`, which is `size` long.
 static int open_beside(const char *path, char *name, size_t size)
 {
@@ -124,10 +149,17 @@ static bool write_beside(const char *path, const struct stat *old, const void *d
     char *target = follow_links(path); // a link stays one
     size_t room = strlen(target) + 32;
     char *name = mem_alloc(room);
-    int fd = open_beside(target, name, room);
+    int fd = open_nameless(target);
+    bool nameless = fd >= 0;
+    if (!nameless)
+        fd = open_beside(target, name, room);
     if (fd >= 0 && old)
         (void)!fchmod(fd, old->st_mode & 0777); // some file systems have no modes
     bool ok = fd >= 0 && write_all(fd, data, size);
+    if (ok && nameless) {
+        ok = name_beside(fd, target, name, room);
+        nameless = !ok;
+    }
     int saved = errno;
     if (fd >= 0 && close(fd) != 0 && ok) {
         ok = false;
@@ -137,7 +169,7 @@ static bool write_beside(const char *path, const struct stat *old, const void *d
         ok = false;
         saved = errno;
     }
-    if (fd >= 0 && !ok)
+    if (fd >= 0 && !ok && !nameless)
         unlink(name);
     free(name);
     free(target);

@@ -119,8 +119,13 @@ static bool export_scad(struct input *out, const struct request *r, struct messa
     }
     uint32_t frames = r->frames ? r->frames : 1;
     out->views = mem_zalloc(frames * sizeof *out->views);
-    scad_view_take(out->views, frames, r, &out->scad);
+    bool known = scad_view_take(out->views, frames, r, &out->scad);
     print_log(out->scad.log, r->quiet);
+    if (!known) {
+        error_set(err, "%s: too many messages to know the camera of each frame; give --camera",
+                  r->input);
+        return false;
+    }
     return !r->hard_warnings || !scad_warning(&out->scad, err);
 }
 
@@ -148,6 +153,24 @@ bool input_open(struct input *out, const struct request *r, struct messages *mes
     return true;
 }
 
+// "dir/part.scad (frame 00003)", as its picture is numbered.
+static bool read_frame(struct input *in, const struct request *r, uint32_t frame,
+                       struct messages *messages)
+{
+    struct error err;
+    struct scad_text text;
+    size_t size = strlen(r->input) + 32;
+    if (!scad_read_frame(&in->scad.frames, frame, &text, &err)) {
+        messages_add(messages, MESSAGE_ERROR, (struct place){.file = r->input}, "%s", err.text);
+        return false;
+    }
+    in->frame_name = mem_realloc(in->frame_name, size);
+    snprintf(in->frame_name, size, "%s (frame %05u)", r->input, frame);
+    bool ok = csg_parse(&in->tree, in->frame_name, text.text, text.size, messages);
+    free(text.text);
+    return ok;
+}
+
 bool input_read(struct input *in, const struct request *r, uint32_t frame,
                 struct messages *messages)
 {
@@ -155,8 +178,7 @@ bool input_read(struct input *in, const struct request *r, uint32_t frame,
     if (!r->is_scad)
         return csg_parse_file(&in->tree, r->input, messages);
     const struct scad_result *s = &in->scad;
-    return r->frames ? csg_parse(&in->tree, s->name, s->frames[frame].text, s->frames[frame].size,
-                                 messages)
+    return r->frames ? read_frame(in, r, frame, messages)
                      : csg_parse(&in->tree, s->name, s->text, s->size, messages);
 }
 
@@ -165,5 +187,7 @@ void input_free(struct input *in)
     csg_free(&in->tree);
     scad_result_free(&in->scad);
     free(in->views);
+    free(in->frame_name);
     in->views = NULL;
+    in->frame_name = NULL;
 }

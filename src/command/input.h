@@ -9,6 +9,7 @@ struct input { // {0} is valid
     // Of a .scad:
     struct scad_result scad;
     struct scad_view *views; // of each frame
+    char *frame_name;        // of the text of the frame in messages
 };
 
 // Runs openscad on a .scad, and prints what it says.

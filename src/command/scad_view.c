@@ -101,13 +101,14 @@ static bool parse(struct camera *out, const char *text, bool sets_rotation, bool
     return true;
 }
 
-void scad_view_take(struct scad_view *out, uint32_t frames, const struct request *r,
+bool scad_view_take(struct scad_view *out, uint32_t frames, const struct request *r,
                     struct scad_result *scad)
 {
     char line[512];
     bool set = scad_view_was_set(scad);
     bool rotation = set && is_set(r, scad, "$vpr"), distance = set && is_set(r, scad, "$vpd");
-    for (uint32_t i = 0; i < frames && take_line(scad->log, MARK, line, sizeof line); i++) {
+    uint32_t i = 0;
+    for (; i < frames && take_line(scad->log, MARK, line, sizeof line); i++) {
         out[i].camera = r->camera;
         out[i].set = set && !r->camera_given &&
                      parse(&out[i].camera, line + strlen(MARK), rotation, distance);
@@ -116,4 +117,5 @@ void scad_view_take(struct scad_view *out, uint32_t frames, const struct request
         ;
     if (set && r->framing_given && !r->quiet)
         fputs(SET_MARK "\n", stderr);
+    return i == frames || !set || r->camera_given;
 }

@@ -15,6 +15,7 @@ struct scad_view {
 bool scad_view_is_named(const struct request *r);
 // Whether openscad found it set.
 bool scad_view_was_set(const struct scad_result *scad);
-// Takes what was said about it out of the log: with the definition a place for each frame.
-void scad_view_take(struct scad_view *out, uint32_t frames, const struct request *r,
+// Takes what was said about it out of the log: with the definition a place for each frame. False if
+// the log has lost some.
+bool scad_view_take(struct scad_view *out, uint32_t frames, const struct request *r,
                     struct scad_result *scad);

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 #include "scad/answer.h"
+#include "scad/frames.h"
 
 #include <signal.h>
 #include <stdint.h>
@@ -33,10 +34,8 @@ void scad_result_free(struct scad_result *r)
 {
     for (uint32_t i = 0; i < r->file_count; i++)
         free(r->files[i]);
-    for (uint32_t i = 0; i < r->frame_count; i++)
-        free(r->frames[i].text);
     free(r->files);
-    free(r->frames);
+    scad_frames_free(&r->frames);
     free(r->text);
     free(r->name);
     free(r->log);
@@ -106,18 +105,31 @@ static bool take_text(struct scad_job *job, const char *path, const struct scad_
     return true;
 }
 
+static bool take_frame(struct scad_job *job, struct scad_result *out, struct error *err)
+{
+    uint32_t number = out->frames.count;
+    char *path = frame_path(job, number);
+    struct scad_text text = {0};
+    bool ok = take_text(job, path, out, &text, err);
+    if (!ok) {
+        struct error why = *err;
+        error_set(err, "%s (frame %05u)", why.text, number);
+    } else {
+        ok = scad_frames_add(&out->frames, &text, err);
+        free(text.text);
+    }
+    unlink(path);
+    free(path);
+    return ok;
+}
+
 static bool take_frames(struct scad_job *job, struct scad_result *out, struct error *err)
 {
-    bool ok = true;
-    out->frames = mem_zalloc(job->frames * sizeof *out->frames);
-    for (uint32_t i = 0; i < job->frames && ok; i++) {
-        char *path = frame_path(job, i);
-        ok = take_text(job, path, out, &out->frames[i], err);
-        out->frame_count += ok;
-        free(path);
-    }
-    while (!ok && out->frame_count)
-        free(out->frames[--out->frame_count].text);
+    bool ok = scad_frames_begin(&out->frames, job->folder, err);
+    while (ok && out->frames.count < job->frames)
+        ok = take_frame(job, out, err);
+    if (!ok)
+        scad_frames_free(&out->frames);
     return ok;
 }
 

@@ -11,11 +11,18 @@ struct scad_text {
     size_t size;
 };
 
+// The texts of an animation, one behind the other in a file that has no name any more: memory does
+// not grow with their number, and nothing is left behind however the program ends.
+struct scad_frames {
+    FILE *file;   // NULL: there are none
+    size_t *ends; // of each text in the file
+    uint32_t count;
+};
+
 struct scad_result { // {0} is a valid empty result
     char *text;      // as in scad_text; NULL after a failure and of animations
     size_t size;
-    struct scad_text *frames; // of animations
-    uint32_t frame_count;     // 0 after a failure
+    struct scad_frames frames; // of animations
     char *name;   // of the text in messages; imports in the text are relative to its folder
     char **files; // what the text depends on, the .scad itself first; missing files as well
     uint32_t file_count;
@@ -23,6 +30,9 @@ struct scad_result { // {0} is a valid empty result
 };
 
 void scad_result_free(struct scad_result *r); // leaves {0}
+// One text of an animation. The caller frees out->text.
+bool scad_read_frame(const struct scad_frames *f, uint32_t frame, struct scad_text *out,
+                     struct error *err);
 
 struct scad_options {             // {0}: all defaults. Borrowed while the export lasts
     const char *program;          // NULL: $OPENSCAD, or else "openscad" on the PATH

@@ -61,6 +61,40 @@ done
 head -n 1 x.d | grep -q '^x00000.png a.b/x00000 x00001.png .* a.b/x00003: ' || fault "rule: $(cat x.d)"
 rm -rf x0* a.b x.d 'x y'*
 
+# A frame that is wrong is named, whether openscad says so or the drawing does.
+cat >third <<'END'
+#!/bin/sh
+for i in 0 1 2 3; do
+    [ $i -eq 2 ] && text=$(cat model) || text='cube(size = [1, 1, 1]);'
+    echo "$text" >"${2%.csg}0000$i.csg"
+done
+cat said >&2
+END
+chmod +x third
+echo 'ERROR: Assertion failed in file a.scad, line 7' >said
+: >model
+"$render" --openscad ./third --animate 4 -o x.png a.scad 2>stderr
+[ $? -eq 1 ] && [ "$(cat stderr)" = 'a.scad:7: Assertion failed (frame 00002)' ] && [ ! -e x00000.png ] ||
+    fault "animation: '$(cat stderr)'"
+: >said
+echo 'cube(' >model
+"$render" --openscad ./third --animate 4 -o x.png a.scad 2>stderr
+[ $? -eq 1 ] && grep -q '^a.scad (frame 00002):1:' stderr || fault "animation: '$(cat stderr)'"
+[ -s x00001.png ] && [ ! -e x00002.png ] && [ ! -e x00003.png ] || fault 'animation: goes on behind a bad frame'
+rm -f x0* model
+
+# Ended in the middle of it, nothing stays but whole pictures.
+mkdir tmp many
+for signal in INT TERM HUP KILL; do
+    TMPDIR=$work/tmp timeout -s $signal 0.3 "$render" --openscad ./fake --imgsize=700,700 --samples=16 --animate 50 \
+        -o many/x.png a.scad 2>/dev/null
+    [ -e many/x00049.png ] && fault "$signal: was not ended"
+    [ $signal = KILL ] || [ -z "$(ls tmp)" ] || fault "$signal: left $(ls tmp | head -n 3)"
+    [ -z "$(find many -name '*.png?*')" ] || fault "$signal: left $(find many -name '*.png?*')"
+    rm -rf tmp/* many/*
+done
+rm -r tmp many
+
 # openscad itself turns the camera of an animation.
 if OPENSCAD= command -v openscad >/dev/null; then
     echo '$vpr = [60, 0, 90 * $t]; $vpd = 20; cube([1, 2, 3]);' >turn.scad

@@ -223,14 +223,24 @@ static void animations_have_a_text_for_each_frame(void **state)
         .frames = 3};
     assert_true(scad_export("p.scad", &options, &r, NULL));
     assert_null(r.text);
-    assert_int_equal(r.frame_count, 3);
-    assert_string_equal(r.frames[2].text, "--animate 3 2\n");
+    assert_int_equal(r.frames.count, 3);
+    assert_int_equal(entries(in_folder("tmp")), 0);
+    for (uint32_t i = 3; i--;) {
+        struct scad_text text;
+        char expected[32];
+        int n = snprintf(expected, sizeof expected, "--animate 3 %u\n", i);
+        assert_true(scad_read_frame(&r.frames, i, &text, NULL));
+        assert_memory_equal(text.text, expected, (size_t)n + 1);
+        assert_int_equal(text.size, n);
+        assert_int_equal(text.text[text.size + 1], 0);
+        free(text.text);
+    }
     scad_result_free(&r);
     struct error err;
     options.frames = 4;
     assert_false(scad_export("p.scad", &options, &r, &err));
-    assert_int_equal(r.frame_count, 0);
-    assert_non_null(strstr(err.text, "wrote no file"));
+    assert_int_equal(r.frames.count, 0);
+    assert_non_null(strstr(err.text, "wrote no file (frame 00003)"));
     scad_result_free(&r);
 }
 
