@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "render/extent.h"
 #include "render/fit.h"
+#include "render/label.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -41,12 +42,10 @@ static bool place_camera(struct drawn *d, const struct view *view, int width, in
     return true;
 }
 
-static bool draw_shot(struct drawn *d, const struct view *view, int width, int height,
-                      struct error *err)
+// As the camera stands.
+static void draw_shot(struct drawn *d, int width, int height)
 {
     struct render_stats stats;
-    if (!place_camera(d, view, width, height, err))
-        return false;
     const struct overlay overlay = {.scheme = d->request->scheme,
                                     .centre = d->camera.centre,
                                     .distance = d->camera.distance,
@@ -59,7 +58,6 @@ static bool draw_shot(struct drawn *d, const struct view *view, int width, int h
               &stats);
     d->shot.picture.overlay = NULL;
     render_stats_add(&d->stats, &stats);
-    return true;
 }
 
 static bool draw_map(struct drawn *d, const struct view *view, struct error *err)
@@ -77,8 +75,9 @@ static bool draw_map(struct drawn *d, const struct view *view, struct error *err
 
 static bool draw_picture(struct drawn *d, const struct view *view, struct error *err)
 {
-    if (!draw_shot(d, view, d->request->width, d->request->height, err))
+    if (!place_camera(d, view, d->request->width, d->request->height, err))
         return false;
+    draw_shot(d, d->request->width, d->request->height);
     d->pixels = d->shot.pixels;
     return true;
 }
@@ -104,15 +103,32 @@ static bool draw_sheet(struct drawn *d, struct error *err)
                   d->height);
         return false;
     }
+    struct camera cameras[VIEWS_MOST];
+    double farthest = 0; // one scale for all
+    for (uint32_t i = 0; i < views->count; i++) {
+        if (!place_camera(d, &views->items[i], layout.width, layout.height, err))
+            return false;
+        cameras[i] = d->camera;
+        farthest = fmax(farthest, d->camera.distance);
+    }
     clear_sheet(d);
     for (uint32_t i = 0; i < views->count; i++) {
-        if (!draw_shot(d, &views->items[i], layout.width, layout.height, err))
-            return false;
+        d->camera = cameras[i];
+        d->camera.distance = farthest;
+        draw_shot(d, layout.width, layout.height);
         int x = (int)i % layout.columns * layout.width, y = (int)i / layout.columns * layout.height;
         size_t row = (size_t)layout.width * d->channels;
         for (int k = 0; k < layout.height; k++)
             memcpy(d->sheet + d->channels * ((size_t)(y + k) * (size_t)d->width + (size_t)x),
                    d->shot.pixels + (size_t)k * row, row);
+        const struct label_place place = {
+            .pixels = d->sheet + d->channels * ((size_t)y * (size_t)d->width + (size_t)x),
+            .stride = d->channels * (size_t)d->width,
+            .width = layout.width,
+            .height = layout.height,
+            .channels = (int)d->channels,
+        };
+        label_draw(&place, views->items[i].name, d->request->scheme->axes);
     }
     return true;
 }

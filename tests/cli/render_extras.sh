@@ -72,6 +72,21 @@ esac
 [ "$(identify -format '%wx%h' part-top.png sheet.png)" = 100x50100x50 ] || fault 'views: sizes'
 [ "$(pixel sheet.png 25,25)" = 194,167,34,255 ] || fault "sheet: top $(pixel sheet.png 25,25)"
 [ "$(pixel sheet.png 75,25)" = "$(pixel part-front.png 50,25)" ] || fault 'sheet: front'
+# In one scale with --fit too: a rod from its side and, as wide as it is thick, from its end. Names
+# are written in the colour of the axes.
+echo 'cube(size = [10, 40, 10], center = true);' >rod.csg
+"$render" --views=left,front --fit=20 --projection=o --imgsize=400,200 -o sheet.png rod.csg ||
+    fault 'views: fit'
+for cell in '160x40 200x160+0+30' '40x40 200x160+200+30'; do
+    box=$(convert sheet.png -crop "${cell#* }" +repage -fill black +opaque '#ffffe5' \
+        -fill white -opaque '#ffffe5' -negate -format %@ info:)
+    case $box in
+    "${cell% *}"+*) ;;
+    *) fault "views: fit: covers $box" ;;
+    esac
+done
+[ "$(pixel sheet.png 5,4)" = "$(pixel sheet.png 6,4)" ] && [ "$(pixel sheet.png 5,4)" != \
+    "$(pixel sheet.png 4,4)" ] || fault "views: no name: $(pixel sheet.png 5,4)"
 "$render" --imgsize=20,20 -o 'x%s.png' plate.csg && [ -e 'x%s.png' ] || fault '%s without views'
 
 # Depths from 98 mm on; 1 mm is 1 pixel.
