@@ -9,11 +9,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+// That each frame of an animation is exported is no news.
 static void print_log(const char *log, bool quiet)
 {
     for (size_t length; *log; log += length) {
         length = strcspn(log, "\n");
         length += log[length] == '\n';
+        if (strncmp(log, "Exporting ", 10) == 0)
+            continue;
         if (!quiet || strncmp(log, "ERROR:", 6) == 0)
             fwrite(log, 1, length, stderr);
     }

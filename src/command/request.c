@@ -11,11 +11,14 @@
 
 static bool set_input(struct request *out, const struct given *given, struct error *err)
 {
-    if (given->operand_count != 1) {
-        error_set(err,
-                  given->operand_count ? "expected one input file, got %d; --help shows the options"
-                                       : "no input file; --help shows the options",
-                  given->operand_count);
+    if (!given->operand_count) {
+        error_set(err, "no input file; --help shows the options");
+        return false;
+    }
+    if (given->operand_count > 1) {
+        error_set(err, "expected one input file, got %d: %s, %s%s; outputs are named with -o",
+                  given->operand_count, given->operands[0], given->operands[1],
+                  given->operand_count > 2 ? ", ..." : "");
         return false;
     }
     out->input = given->operands[0];

@@ -22,7 +22,8 @@ mkdir folder
 expect 1 'no input file' -o out.png
 expect 1 'name of an input file' -o out.png ''
 expect 1 '--output: expected the name of a file' -o '' a.csg
-expect 1 'expected one input file, got 2' -o out.png a.csg a.csg
+expect 1 'expected one input file, got 2: a.csg, b.csg; outputs are named with -o' -o out.png a.csg b.csg
+expect 1 'got 3: a.csg, out.png, ...; outputs are named with -o' a.csg out.png b.png
 expect 1 'no output; give -o' a.csg
 expect 1 'expected FILE after it' a.csg -o
 expect 1 'unknown option --imagesize; did you mean --imgsize?' --imagesize=3,3 -o out.png a.csg

@@ -45,6 +45,7 @@ passes 'a.scad|' --render --preview
 passes '-m|make -s|a.scad|' -m 'make -s'
 
 # Animations: a picture for each $t, from 0 on.
+yes 'Exporting a.scad...' | head -n 4 >said
 echo 'cube(size = [1, 1, 1]);' >model
 "$render" --openscad ./fake --animate 4 -D a=1 -d x.d --summary camera --summary-file 'x y.json' -o x.png \
     -o a.b/x a.scad 2>stderr
@@ -53,12 +54,14 @@ echo 'cube(size = [1, 1, 1]);' >model
 mkdir a.b
 "$render" --openscad ./fake --animate 4 -D a=1 -d x.d --summary camera --summary-file 'x y.json' -o x.png \
     -o a.b/x a.scad 2>stderr || fault "animation: $(cat stderr)"
+[ -s stderr ] && fault "animation: '$(cat stderr)'"
 [ "$(tr '\n' '|' <arguments)" = '--animate|4|-D|a=1|a.scad|' ] || fault "animation: $(cat arguments)"
 for i in 0 1 2 3; do
     [ -s x0000$i.png ] && [ -s a.b/x0000$i ] && [ -s "x y0000$i.json" ] || fault "animation: frame $i"
 done
 [ -e x.png ] || [ -e x00004.png ] && fault 'animation: too many frames'
 head -n 1 x.d | grep -q '^x00000.png a.b/x00000 x00001.png .* a.b/x00003: ' || fault "rule: $(cat x.d)"
+: >said
 rm -rf x0* a.b x.d 'x y'*
 
 # A frame that is wrong is named, whether openscad says so or the drawing does.
