@@ -1,6 +1,6 @@
 #!/bin/bash
-# hidden.sh PROGRAM - where a library of OpenGL is missing or no driver is, a context is refused with
-# one line; the program, which needs one, says so and exits with 77.
+# hidden.sh PROGRAM RENDER - where a library of OpenGL is missing or no driver is, a context is refused
+# with one line (PROGRAM, which needs one, says so and exits with 77), and hcsg-render draws as ever.
 set -eu
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -14,9 +14,12 @@ refused() { # refused TEXT NAME=VALUE...
         cat "$scratch/out" "$scratch/err"
         exit 1
     fi
+    env "$@" "$render" -o "$scratch/cube.png" --imgsize 64,48 "$scratch/cube.csg"
+    rm "$scratch/cube.png"
 }
 
-program=$1
+program=$1 render=$2
+echo 'cube(size = [1, 2, 3], center = false);' >"$scratch/cube.csg"
 mkdir "$scratch/egl" "$scratch/gl"
 touch "$scratch/egl/libEGL.so.1" "$scratch/gl/libOpenGL.so.0" "$scratch/gl/libGL.so.1"
 refused "libEGL.so.1 cannot be loaded" LD_LIBRARY_PATH="$scratch/egl"

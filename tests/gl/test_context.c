@@ -4,6 +4,7 @@
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <pthread.h>
 
 static void facts_are_those_of_the_driver(void **state)
 {
@@ -50,6 +51,32 @@ static void what_was_current_comes_back(void **state)
     gl_context_leave(c);
 }
 
+static void *use(void *context)
+{
+    struct error err;
+    if (!gl_context_enter(context, &err))
+        return "not entered";
+    bool good = glGetString(GL_RENDERER) && !gl_context_failed(context, &err);
+    gl_context_leave(context);
+    return !good ? "failed" : eglGetCurrentContext() ? "not left" : NULL;
+}
+
+static void other_threads_can_use_it(void **state)
+{
+    struct gl_context *c = *state;
+    struct error err;
+    for (int i = 0; i < 3; i++) {
+        pthread_t thread;
+        void *wrong;
+        assert_int_equal(pthread_create(&thread, NULL, use, c), 0);
+        pthread_join(thread, &wrong);
+        if (wrong)
+            fail_msg("%s", (char *)wrong);
+    }
+    assert_true(gl_context_enter(c, &err));
+    gl_context_leave(c);
+}
+
 static void wrong_use_is_told_once(void **state)
 {
     struct gl_context *c = *state;
@@ -70,6 +97,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_prestate(facts_are_those_of_the_driver, c),
         cmocka_unit_test_prestate(what_was_current_comes_back, c),
+        cmocka_unit_test_prestate(other_threads_can_use_it, c),
         cmocka_unit_test_prestate(wrong_use_is_told_once, c),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

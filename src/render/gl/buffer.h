@@ -30,6 +30,8 @@ bool gl_buffer_make(struct gl_buffer *b, struct gl_memory *memory, const char *l
                     unsigned flags, struct error *err);
 void gl_buffer_free(struct gl_buffer *b); // leaves {0}
 
+// What shaders wrote before is only seen by these after
+// glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT).
 void gl_buffer_write(const struct gl_buffer *b, size_t offset, const void *data, size_t size);
 // Fills with one 32-bit value; offset and size are multiples of 4.
 void gl_buffer_fill(const struct gl_buffer *b, size_t offset, size_t size, uint32_t value);
