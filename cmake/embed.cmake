@@ -1,9 +1,8 @@
-# embed.cmake - writes the shaders as C: cmake -DFOLDER=shaders -DOUTPUT=files.c -P embed.cmake
-file(GLOB names RELATIVE ${FOLDER} ${FOLDER}/*.glsl ${FOLDER}/*.h)
+# embed.cmake - writes shaders as C: cmake -DFOLDER=shaders -DNAMES=a;b -DOUTPUT=c -P embed.cmake
 set(texts)
 set(rows)
 set(count 0)
-foreach(name ${names})
+foreach(name ${NAMES})
     file(READ ${FOLDER}/${name} bytes HEX)
     string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
     string(APPEND texts "static const char text_${count}[] = {${bytes}0};\n")
