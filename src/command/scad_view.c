@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/mem.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -82,23 +83,46 @@ static bool take_line(char *log, const char *mark, char *line, size_t size)
     return false;
 }
 
-static bool parse(struct camera *out, const char *text, bool sets_rotation, bool sets_distance)
+// Two or three numbers, as OpenSCAD takes them; another value leaves *out alone.
+static bool read_vector(const char *text, struct vec3 *out)
 {
-    struct vec3 centre, turn;
-    double distance, fov;
-    if (sscanf(text, "[%lf, %lf, %lf], [%lf, %lf, %lf], %lf, %lf", &centre.x, &centre.y, &centre.z,
-               &turn.x, &turn.y, &turn.z, &distance, &fov) != 8)
-        return false;
-    // Where a file sets none, exports have these values, and pictures others.
-    bool no_turn = turn.x == 0 && turn.y == 0 && turn.z == 0, no_distance = distance == 500;
-    out->centre = centre;
-    if (!no_turn || sets_rotation)
-        out->rotation = turn;
-    if (!no_distance || sets_distance)
-        out->distance = distance;
-    if (fov > 0 && fov < 180)
-        out->fov = fov;
+    struct vec3 v = {0};
+    int end = 0;
+    if (sscanf(text, " [%lf, %lf]%n", &v.x, &v.y, &end) != 2 || !end)
+        if (sscanf(text, " [%lf, %lf, %lf]%n", &v.x, &v.y, &v.z, &end) != 3 || !end)
+            return false;
+    *out = v;
     return true;
+}
+
+static bool read_number(const char *text, double *out)
+{
+    return sscanf(text, "%lf", out) == 1 && isfinite(*out);
+}
+
+static const char *after_value(const char *text)
+{
+    for (int depth = 0; *text && (depth || *text != ','); text++)
+        depth += (*text == '[') - (*text == ']');
+    return *text ? text + 1 : text;
+}
+
+// What is of another kind than a camera needs leaves it as it is, as in OpenSCAD.
+static void parse(struct camera *out, const char *text, bool sets_rotation, bool sets_distance)
+{
+    struct vec3 turn;
+    double number;
+    read_vector(text, &out->centre);
+    text = after_value(text);
+    // Where a file sets none, exports have these values, and pictures others.
+    if (read_vector(text, &turn) && (turn.x != 0 || turn.y != 0 || turn.z != 0 || sets_rotation))
+        out->rotation = turn;
+    text = after_value(text);
+    if (read_number(text, &number) && (number != 500 || sets_distance))
+        out->distance = number;
+    text = after_value(text);
+    if (read_number(text, &number) && number > 0 && number < 180)
+        out->fov = number;
 }
 
 bool scad_view_take(struct scad_view *out, uint32_t frames, const struct request *r,
@@ -110,8 +134,9 @@ bool scad_view_take(struct scad_view *out, uint32_t frames, const struct request
     uint32_t i = 0;
     for (; i < frames && take_line(scad->log, MARK, line, sizeof line); i++) {
         out[i].camera = r->camera;
-        out[i].set = set && !r->camera_given &&
-                     parse(&out[i].camera, line + strlen(MARK), rotation, distance);
+        out[i].set = set && !r->camera_given;
+        if (out[i].set)
+            parse(&out[i].camera, line + strlen(MARK), rotation, distance);
     }
     while (take_line(scad->log, SET_MARK, line, sizeof line))
         ;

@@ -140,6 +140,11 @@ echo 'module a(b = $vpr == 1) { } $vpr = [0, 0, 0]; $vpd=500;' >v.scad
 camera 0,0,0,0,0,0,500 '[0, 0, 0], [0, 0, 0], 500, 22.5'
 echo '$vpt = [1, 2, -3.5];' >v.scad
 camera 1,2,-3.5,55,0,25,140 '[1, 2, -3.5], [0, 0, 0], 500, 22.5'
+# Two numbers are enough; what is of another kind is as if it were not set.
+echo '$vpt = 1; $vpr = 1; $vpd = 1;' >v.scad
+camera 0,0,0,10,20,0,7 'undef, [10, 20], 7, 22.5'
+camera 5,6,0,55,0,25,7 '[5, 6], [10, 20, 0, 30], 7, "wide"'
+camera 5,6,7,1,2,3,140 '[5, 6, 7], [1, 2, 3], [200], nan'
 : >said
 echo 'cube($vpd == 1 ? 2 : 1);' >v.scad
 "$render" --openscad ./fake -o out.png v.scad 2>/dev/null
