@@ -2,7 +2,8 @@
 //
 // The sum is not stored: one product after the other is worked out. A state is a product so far and
 // a list of the terms that it is still to be intersected with or to lose; where a term stands for a
-// sum the state splits in two.
+// sum the state splits in two. hcsg/products lists the products of the normal form, which has lost
+// the file's pairs of operands: each is pruned here by its own box, whatever the sum's length.
 #include "model/products.h"
 
 #include "base/mem.h"
