@@ -2,6 +2,7 @@
 #include "command/style.h"
 
 #include "base/mem.h"
+#include "command/flags.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -45,24 +46,9 @@ static bool set_fit(struct style *out, const struct given *given, struct error *
 
 static bool set_shading(struct style *out, const char *text, struct error *err)
 {
-    static const struct {
-        const char *name;
-        uint32_t effect;
-    } all[] = {{"ao", EFFECT_OCCLUSION}, {"outline", EFFECT_OUTLINE}};
-    for (size_t length; text; text = text[length] ? text + length + 1 : NULL) {
-        size_t i = 0;
-        length = strcspn(text, ",");
-        while (i < array_count(all) &&
-               (strlen(all[i].name) != length || strncmp(all[i].name, text, length) != 0))
-            i++;
-        if (i == array_count(all)) {
-            error_set(err, "--shading: expected ao, outline or ao,outline, got '%.*s'", (int)length,
-                      text);
-            return false;
-        }
-        out->shot.effects |= all[i].effect;
-    }
-    return true;
+    static const struct flag_name all[] = {{"ao", EFFECT_OCCLUSION}, {"outline", EFFECT_OUTLINE}};
+    return flags_parse(&out->shot.effects, text, all, array_count(all), "shading",
+                       "ao, outline or ao,outline", err);
 }
 
 // "LEVELS" or "LEVELS,PERCENT%"
