@@ -27,6 +27,8 @@ int main(int argc, char **argv)
         return EXIT_FINE;
     case OPTIONS_WRONG:
         return command_fail(&err, EXIT_INPUT);
+    case OPTIONS_UNTOLD:
+        return command_fail(&err, EXIT_OUTPUT);
     case OPTIONS_RUN:
         break;
     }

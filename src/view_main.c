@@ -116,6 +116,7 @@ int main(int argc, char **argv)
     case OPTIONS_DONE:
         return 0;
     case OPTIONS_WRONG:
+    case OPTIONS_UNTOLD:
         goto wrong;
     case OPTIONS_RUN:
         break;

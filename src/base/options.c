@@ -294,7 +294,7 @@ static enum options_result explain(const struct program *p, bool help, struct er
     if (fflush(stdout) == 0 && !ferror(stdout))
         return OPTIONS_DONE;
     error_set(err, "standard output: cannot write");
-    return OPTIONS_WRONG;
+    return OPTIONS_UNTOLD;
 }
 
 // Gives the option its value, if need be the next word, and stores it.

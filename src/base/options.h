@@ -41,9 +41,10 @@ struct program {
 };
 
 enum options_result {
-    OPTIONS_RUN,   // go on
-    OPTIONS_DONE,  // --help or --version was printed
-    OPTIONS_WRONG, // *err says why
+    OPTIONS_RUN,    // go on
+    OPTIONS_DONE,   // --help or --version was printed
+    OPTIONS_WRONG,  // *err says why
+    OPTIONS_UNTOLD, // what --help or --version says could not be written; *err says why
 };
 
 // "--name=value", "--name value", "-o value", "-ovalue", "-qo value"; "--" ends the options, "-" is

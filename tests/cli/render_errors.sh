@@ -73,7 +73,7 @@ if [ -w /dev/full ]; then
     for arguments in '-o - a.csg' '--help' '--version' '--summary a.csg'; do
         # shellcheck disable=SC2086 # several words
         "$render" $arguments >/dev/full 2>stderr
-        [ $? -ne 0 ] || fault "$arguments to a full disk: exit code 0"
+        [ $? -eq 2 ] || fault "$arguments to a full disk: another exit code than 2"
         [ "$(wc -l <stderr)" -eq 1 ] || fault "$arguments to a full disk: '$(cat stderr)'"
     done
 fi
