@@ -137,7 +137,9 @@ static bool draw_sheet(struct drawn *d, struct error *err)
 static void want_edges(struct drawn *d)
 {
     const struct view_options *v = &d->request->view;
-    if (d->model->mode != MODEL_RENDER && v->edges)
+    if (d->model->mode == MODEL_THROWN_TOGETHER && v->edges)
+        d->shot.picture.sides = d->facets = facets_new(d->model);
+    if (d->model->mode == MODEL_PREVIEW && v->edges)
         d->shader.edges = d->facets = facets_new(d->model);
     if (d->model->mode != MODEL_RENDER || d->model->single || d->model->flat)
         return;

@@ -300,3 +300,25 @@ bool facets_find(const struct facets *d, const struct solid *solid, uint32_t fac
     *out = find_in_polygon(found, face, widest.normal, p);
     return true;
 }
+
+void facets_sides(const struct facets *d, const struct solid *solid, void *context,
+                  void (*side)(void *context, struct vec3 from, struct vec3 to))
+{
+    const struct cut_solid *found = find(d, solid);
+    const struct mesh *m = &solid->mesh;
+    for (uint32_t face = 0; face < m->face_count; face++) {
+        if (!is_whole(solid, triangle_of(m, found->widest[face]).normal))
+            continue;
+        uint32_t first = found->first[face], end = found->first[face + 1];
+        for (uint32_t i = first; i < end; i++)
+            side(context, m->vertices[found->corners[i]],
+                 m->vertices[found->corners[i + 1 < end ? i + 1 : first]]);
+    }
+    for (uint32_t t = 0; t < m->triangle_count && !solid->outline.path_count; t++) {
+        if (is_whole(solid, triangle_of(m, found->widest[m->faces[t]]).normal))
+            continue;
+        for (int k = 0; k < 3; k++)
+            side(context, m->vertices[m->triangles[t][k]],
+                 m->vertices[m->triangles[t][(k + 1) % 3]]);
+    }
+}

@@ -22,6 +22,11 @@ void facets_delete(struct facets *f);
 bool facets_find(const struct facets *d, const struct solid *solid, uint32_t face,
                  struct vec3 origin, struct vec3 direction, struct facet *out);
 
+// Calls `side` for each side of each face or triangle as which a solid is drawn; of the plate of a
+// flat shape those of its outline.
+void facets_sides(const struct facets *d, const struct solid *solid, void *context,
+                  void (*side)(void *context, struct vec3 from, struct vec3 to));
+
 // Shares of the corners where a line meets the plane of a triangle: they sum up to 1, and each is 0
 // on the side opposite to its corner. Not finite when the line lies in the plane.
 struct vec3 facets_shares(const struct facet *t, struct vec3 origin, struct vec3 direction);

@@ -8,8 +8,6 @@
 // the same one as there.
 #include "render/lines.h"
 
-#include <string.h>
-
 #define SUBPIXELS 256  // per pixel; ends of lines are rounded to them, as by the hardware
 #define FARTHEST  1e12 // pixels; of ends beyond, nothing is known about the pixels between
 enum { DASH = 3 };     // pixels of a stippled line that are off, then as many on
@@ -42,11 +40,14 @@ static void put(const struct pen *p, int x, int y, double weight)
     size_t i = (size_t)(c->height - 1 - y) * (size_t)c->width + (size_t)x;
     if (p->depth) {
         float depth = (float)((p->inverse ? 1 / weight : weight) - p->reference);
-        if (!(depth < p->depth[i]))
+        if (!(depth < p->depth[i] || (p->style->half && depth <= p->depth[i])))
             return;
         p->depth[i] = depth;
     }
-    memcpy(c->rgb + 3 * i, &p->style->colour, 3);
+    uint8_t bytes[3] = {p->style->colour.r, p->style->colour.g, p->style->colour.b};
+    for (int k = 0; k < 3; k++)
+        c->rgb[3 * i + (size_t)k] =
+            p->style->half ? (uint8_t)((c->rgb[3 * i + (size_t)k] + bytes[k]) / 2) : bytes[k];
 }
 
 static double snapped(double v)

@@ -16,6 +16,7 @@ struct line_style {
     struct rgb colour;
     int width;     // pixels, across the line's main direction
     bool stippled; // three pixels off, three on
+    bool half;     // half of what is there shows through; also what is as near is drawn over
 };
 
 // The line between two points of the world, as far as it lies between near and far.

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "render/blend.h"
 #include "render/outlines.h"
+#include "render/sides.h"
 #include "render/wires.h"
 
 #include <stdlib.h>
@@ -25,6 +26,7 @@ static void reserve(struct picture *p, int width, int height)
     picture_free(p);
     p->overlay = kept.overlay;
     p->wires = kept.wires;
+    p->sides = kept.sides;
     p->bare = kept.bare;
     size_t n = (size_t)width * (size_t)height;
     struct surface_image *images[] = {&p->surface, &p->scratch};
@@ -239,6 +241,8 @@ void picture_draw(struct picture *p, struct device *device, const struct shader 
     layers_delete(around);
     if (p->wires)
         wires_draw(&canvas, device, model, shader->scheme, p->wires, rays, settings);
+    if (p->sides)
+        sides_draw(&canvas, model, p->sides, rays);
     outlines_draw(&canvas, shader, rays);
     if (p->overlay)
         overlay_draw_over(p->overlay, rays, &canvas);

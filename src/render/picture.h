@@ -20,6 +20,7 @@ struct picture { // {0} is valid; buffers are kept from drawing to drawing
     struct surface_image scratch;
     const struct overlay *overlay; // is drawn with the bodies; borrowed, NULL: none
     const struct facets *wires;    // the main body's edges are drawn as lines; borrowed, NULL: not
+    const struct facets *sides;    // sides of all faces are drawn as lines; borrowed, NULL: not
     bool bare;                     // without faces
     struct owner *owners;          // NULL until a layer repeats leaves
 };

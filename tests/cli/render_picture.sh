@@ -82,6 +82,17 @@ for colour in 0,0,0 255,0,0 0,255,0 0,0,255 128,0,0; do
     colours view.png | grep -q " $colour$" || fault "view: lacks $colour"
 done
 
+# Thrown together, edges are magenta, of marked objects see-through: the counts are OpenSCAD's.
+cat >marked.csg <<'EOF'
+cube(size = [20, 20, 20], center = true);
+#multmatrix([[1,0,0,14],[0,1,0,0],[0,0,1,8],[0,0,0,1]]) { cube(size = [5, 5, 5], center = true); }
+EOF
+"$render" --preview=throwntogether --view=edges --imgsize=100,100 --camera=0,0,0,60,0,30,90 \
+    -o marked.png marked.csg || fault 'edges thrown together failed'
+for count in '497 255,0,255' '71 160,91,40' '54 186,79,53'; do
+    colours marked.png | sed 's/^ *//' | grep -qx "$count" || fault "edges thrown together: not $count"
+done
+
 "$render" --summary cut.csg >summary || fault 'summary failed'
 grep -q '^Leaves: *2$' summary || fault 'summary: leaves'
 grep -q 'Max:  10, 10, 10' summary || fault 'summary: box'
