@@ -164,6 +164,74 @@ int discovery_resolve(struct discovery *d, uint64_t key, const struct member *se
     return solid ? SET_SOLID : SET_EMPTY;
 }
 
+static int compare_members(const void *a, const void *b)
+{
+    uint32_t p = ((const struct member *)a)->class_id, q = ((const struct member *)b)->class_id;
+    return p < q ? -1 : p > q;
+}
+
+// Sorts members and adds up those of one class; returns how many are left.
+static uint32_t settle_members(struct member *members, uint32_t count)
+{
+    uint32_t kept = 0;
+    qsort(members, count, sizeof *members, compare_members);
+    for (uint32_t i = 0, next; i < count; i = next) {
+        struct member sum = members[i];
+        for (next = i + 1; next < count && members[next].class_id == sum.class_id; next++)
+            sum.count += members[next].count;
+        if (sum.count)
+            members[kept++] = sum;
+    }
+    return kept;
+}
+
+// The members of a known combination and room for `more` of them; the caller frees. NULL when the
+// key is not known.
+static struct member *members_of(struct combinations *c, uint64_t key, uint32_t more,
+                                 uint32_t *count)
+{
+    struct member *members = NULL;
+    *count = 0;
+    pthread_mutex_lock(&c->lock);
+    const struct table *t = current(c);
+    if (key == 0) {
+        members = mem_alloc((more + 1) * sizeof *members);
+    } else if (table_find(t, key)) {
+        const unsigned char *set = t->sets[table_place(t, key)];
+        *count = (uint32_t)read_number(&set);
+        members = mem_alloc(((size_t)*count + more + 1) * sizeof *members);
+        uint64_t class_id = 0;
+        for (uint32_t i = 0; i < *count; i++) {
+            uint64_t n = read_number(&set);
+            class_id += n >> 1;
+            members[i] =
+                (struct member){(uint32_t)class_id, n & 1 ? (uint32_t)read_number(&set) : 1};
+        }
+    }
+    pthread_mutex_unlock(&c->lock);
+    return members;
+}
+
+bool discovery_extend(struct discovery *d, uint64_t from, const struct class_step *steps,
+                      uint32_t count, uint64_t key)
+{
+    struct combinations *c = whole(d);
+    uint64_t sum = from;
+    uint32_t known;
+    for (uint32_t i = 0; i < count; i++)
+        sum += c->sharing->classes[steps[i].class_id].value * (uint64_t)(int64_t)steps[i].by;
+    if (((sum ^ key) & VALUE_MASK) != 0)
+        return false;
+    struct member *members = members_of(c, from & VALUE_MASK, count, &known);
+    if (!members)
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        members[known + i] = (struct member){steps[i].class_id, (uint32_t)steps[i].by};
+    discovery_resolve(d, key, members, settle_members(members, known + count));
+    free(members);
+    return true;
+}
+
 void discovery_renew(struct discovery *d)
 {
     struct combinations *c = whole(d);

@@ -34,6 +34,18 @@ static inline int discovery_lookup(const struct discovery *d, uint64_t key)
 // just remembering a set. Thread-safe.
 int discovery_resolve(struct discovery *d, uint64_t key, const struct member *set, uint32_t count);
 
+// Leaves of a class come (by > 0) or go.
+struct class_step {
+    uint32_t class_id;
+    int32_t by;
+};
+
+// Makes known what lies `count` steps from the combination of key `from`, whose key is `key`. For
+// devices that see keys alone: the set behind a known key is in the table's mirror. False when
+// `from` is not known, or when the steps do not lead to `key`. Thread-safe.
+bool discovery_extend(struct discovery *d, uint64_t from, const struct class_step *steps,
+                      uint32_t count, uint64_t key);
+
 // Brings the stored keys in line with the values of the classes after values_renew. Keys summed
 // before are meaningless afterwards. Not while another thread uses `d`.
 void discovery_renew(struct discovery *d);

@@ -127,6 +127,42 @@ static void renewal_follows_the_values(void **state)
     scene_free(&m);
 }
 
+static void steps_lead_to_combinations(void **state)
+{
+    (void)state;
+    struct scene m;
+    scene_pairs(&m, 40);
+    struct member set[8];
+    struct class_step steps[9];
+    uint64_t from = 0;
+    for (uint64_t i = 0; i < 300; i++) { // all in, then out again but for two of each
+        uint32_t n = set_number(&m, i, set);
+        uint64_t key = key_of(&m, set, n);
+        for (uint32_t k = 0; k < n; k++)
+            steps[k] = (struct class_step){set[k].class_id, (int32_t)set[k].count};
+        assert_true(discovery_extend(m.d, 0, steps, n, key));
+        assert_int_equal(discovery_lookup(m.d, key),
+                         evaluate_set(&m.e, &m.s, set, n) ? SET_SOLID : SET_EMPTY);
+        if (n < 3)
+            continue;
+        for (uint32_t k = 2; k < n; k++)
+            steps[k - 2] = (struct class_step){set[k].class_id, -(int32_t)set[k].count};
+        from = key;
+        key = key_of(&m, set, 2);
+        assert_true(discovery_extend(m.d, from, steps, n - 2, key));
+        assert_int_equal(discovery_lookup(m.d, key),
+                         evaluate_set(&m.e, &m.s, set, 2) ? SET_SOLID : SET_EMPTY);
+        assert_false(discovery_extend(m.d, from, steps, n - 2, key + 1));
+    }
+    uint32_t known = discovery_stats(m.d).combinations;
+    uint64_t nobody = from + 12345;
+    steps[0] = (struct class_step){3, 1};
+    assert_int_equal(discovery_lookup(m.d, nobody), SET_UNKNOWN);
+    assert_false(discovery_extend(m.d, nobody, steps, 1, nobody + m.s.classes[3].value));
+    assert_int_equal(discovery_stats(m.d).combinations, known);
+    scene_free(&m);
+}
+
 // All primary values are one number: only the secondary values tell sets apart.
 static void colliding_primary_values(void **state)
 {
@@ -236,9 +272,9 @@ static void threads_discover_together(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(unknown_then_known),        cmocka_unit_test(renewal_follows_the_values),
-        cmocka_unit_test(colliding_primary_values),  cmocka_unit_test(ten_thousand_leaves),
-        cmocka_unit_test(threads_discover_together),
+        cmocka_unit_test(unknown_then_known),         cmocka_unit_test(steps_lead_to_combinations),
+        cmocka_unit_test(renewal_follows_the_values), cmocka_unit_test(colliding_primary_values),
+        cmocka_unit_test(ten_thousand_leaves),        cmocka_unit_test(threads_discover_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

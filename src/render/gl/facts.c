@@ -8,7 +8,7 @@
 // What is smaller than this on a driver with OpenGL 4.5 is not worth a second way.
 enum {
     LEAST_STORAGE = 128 << 20, // bytes of a buffer
-    LEAST_BLOCKS = 12,
+    LEAST_BLOCKS = 16,
     LEAST_INVOCATIONS = 1024,
     LEAST_SHARED = 32 << 10,
 };

@@ -1,0 +1,85 @@
+// frame.c - the numbers of a picture that all passes share.
+#include "render/gl/frame.h"
+
+#include <math.h>
+
+static void put(double out[3], struct vec3 v)
+{
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
+}
+
+static double key_of(const struct frame_data *f, double depth)
+{
+    return f->orthographic ? depth - f->t0 : f->t0 - f->t0 * f->t0 / depth;
+}
+
+// Into the picture; *mirrored: x, y and it are left-handed.
+static struct vec3 axis_of(const struct rays *r, bool *mirrored)
+{
+    struct vec3 axis = vec3_normalized(vec3_cross(r->step_x, r->step_y));
+    *mirrored = vec3_dot(axis, r->forward) < 0;
+    return *mirrored ? vec3_scale(axis, -1) : axis;
+}
+
+void gl_frame_init(struct frame_data *f, const struct body *body, const struct rays *rays,
+                   const struct render_settings *settings)
+{
+    bool mirrored;
+    struct vec3 axis = axis_of(rays, &mirrored);
+    struct vec3 x = vec3_scale(rays->step_x, 1 / vec3_dot(rays->step_x, rays->step_x));
+    struct vec3 y = vec3_scale(rays->step_y, 1 / vec3_dot(rays->step_y, rays->step_y));
+    *f = (struct frame_data){.orthographic = rays->orthographic,
+                             .mirrored = mirrored,
+                             .width = rays->width,
+                             .height = rays->height,
+                             .rows = rays->height,
+                             .t0 = rays->reference,
+                             .near = rays->near,
+                             .far = rays->far,
+                             .epsilon = settings->epsilon,
+                             .borders = body->borders,
+                             .leaf_count = body->leaf_count,
+                             .slab_first = 1,
+                             .slab_last = 1};
+    if (!rays->orthographic) { // forward itself is pixel (0, 0)
+        x = vec3_sub(x, vec3_scale(axis, vec3_dot(rays->forward, x)));
+        y = vec3_sub(y, vec3_scale(axis, vec3_dot(rays->forward, y)));
+        f->t0 = fmax(f->t0, 2 * rays->near);
+    }
+    f->clip = fmax(rays->near * 0.5, f->t0 * 1e-3);
+    put(f->origin, rays->origin);
+    put(f->forward, rays->forward);
+    put(f->step_x, rays->step_x);
+    put(f->step_y, rays->step_y);
+    put(f->axis, axis);
+    put(f->dual_x, x);
+    put(f->dual_y, y);
+    f->start = (float)key_of(f, rays->near);
+    f->end = (float)key_of(f, rays->far);
+    f->to_depth = (float)(1 / f->t0);
+    f->shift = (float)(f->t0 - rays->reference);
+    f->slab_end = f->end;
+}
+
+bool gl_frame_range(const struct frame_data *f, const struct rays *rays, const struct body *body,
+                    float *near, float *far)
+{
+    struct box all = BOX_EMPTY;
+    bool mirrored;
+    struct vec3 axis = axis_of(rays, &mirrored);
+    double low = INFINITY, high = -INFINITY;
+    for (uint32_t i = 0; i < body->leaf_count; i++)
+        all = box_union(all, body->leaves[i].box);
+    if (box_is_empty(all))
+        return false;
+    for (int i = 0; i < 8; i++) {
+        double t = vec3_dot(axis, vec3_sub(box_corner(all, i), rays->origin));
+        low = fmin(low, t);
+        high = fmax(high, t);
+    }
+    *near = low <= rays->near ? f->start : (float)key_of(f, low);
+    *far = high >= rays->far ? f->end : (float)key_of(f, high);
+    return high > rays->near && low < rays->far;
+}

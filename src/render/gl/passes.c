@@ -1,0 +1,308 @@
+// passes.c - the passes of a band and slab.
+#include "render/gl/passes.h"
+
+#include "base/mem.h"
+
+#include <epoxy/gl.h>
+#include <stdlib.h>
+
+enum {
+    MISS_WORDS = 1 << 20,    // of records of unknown combinations, per round
+    LARGE_PIECES = 64 << 10, // of large triangles; grows
+};
+
+void gl_work_free(struct gl_work *w)
+{
+    struct gl_buffer *all[] = {&w->frame,      &w->counters, &w->views,        &w->starts,
+                               &w->counts,     &w->large,    &w->pixel_counts, &w->offsets,
+                               &w->states,     &w->output,   &w->span_counts,  &w->pending[0],
+                               &w->pending[1], &w->misses,   &w->claims,       &w->fragments,
+                               &w->sums[0],    &w->sums[1],  &w->sums[2]};
+    for (size_t i = 0; i < array_count(all); i++)
+        gl_buffer_free(all[i]);
+    gl_readback_free(&w->readback);
+}
+
+static size_t pixels_of(const struct frame_data *f)
+{
+    return (size_t)f->width * (size_t)f->rows;
+}
+
+bool gl_work_prepare(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
+                     bool spans, struct error *err)
+{
+    struct gl_memory *m = w->memory;
+    size_t leaves = scene->leaf_count, pixels = pixels_of(f);
+    return gl_buffer_grow(&w->frame, m, "frame", sizeof *f, err) &&
+           gl_buffer_grow(&w->counters, m, "counters", sizeof(struct counters), err) &&
+           gl_buffer_grow(&w->views, m, "views", leaves * sizeof(struct leaf_view), err) &&
+           gl_buffer_grow(&w->starts, m, "starts", (leaves + 1) * 4, err) &&
+           gl_buffer_grow(&w->counts, m, "counts", (leaves + 1) * 4, err) &&
+           gl_buffer_grow(&w->large, m, "large", LARGE_PIECES * 16, err) &&
+           gl_buffer_grow(&w->pixel_counts, m, "pixel counts", (pixels + 1) * 4, err) &&
+           gl_buffer_grow(&w->offsets, m, "offsets", (pixels + 1) * 4, err) &&
+           gl_buffer_grow(&w->states, m, "states", pixels * sizeof(struct pixel_state), err) &&
+           gl_buffer_grow(&w->pending[0], m, "pending", pixels * 4, err) &&
+           gl_buffer_grow(&w->pending[1], m, "pending", pixels * 4, err) &&
+           gl_buffer_grow(&w->misses, m, "misses", MISS_WORDS * 4, err) &&
+           gl_buffer_grow(&w->claims, m, "claims", CLAIMS * 4, err) &&
+           (spans ? gl_buffer_grow(&w->span_counts, m, "span counts", pixels * 4, err)
+                  : gl_buffer_grow(&w->output, m, "output", pixels * 12, err));
+}
+
+// Writes of shaders are there for copies.
+static void barrier_for_copies(void)
+{
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+const void *gl_work_read(struct gl_work *w, const struct gl_buffer *from, size_t size,
+                         struct error *err)
+{
+    barrier_for_copies();
+    return gl_readback_start(&w->readback, w->memory, "readback", from, 0, size, err)
+               ? gl_readback_wait(&w->readback, err)
+               : NULL;
+}
+
+static bool use(struct gl_work *w, const char *name, const char *defines, struct error *err)
+{
+    unsigned program = gl_program(w->programs, name, defines, err);
+    if (program)
+        glUseProgram(program);
+    return program;
+}
+
+static void dispatch(size_t groups)
+{
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    GLuint x = (GLuint)(groups < GROUPS_WIDE ? groups : GROUPS_WIDE);
+    glDispatchCompute(x, (GLuint)((groups + GROUPS_WIDE - 1) / GROUPS_WIDE), 1);
+}
+
+static void dispatch_counted(const struct gl_work *w)
+{
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, w->counters.id);
+    glDispatchComputeIndirect(offsetof(struct counters, groups));
+}
+
+static void bind_frame(const struct gl_work *w, const struct gl_scene *scene)
+{
+    gl_buffer_bind(&w->frame, BIND_FRAME);
+    gl_buffer_bind(&scene->leaves, BIND_LEAVES);
+    gl_buffer_bind(&w->counters, BIND_COUNTERS);
+}
+
+bool gl_work_views(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
+                   struct error *err)
+{
+    gl_buffer_write(&w->frame, 0, f, sizeof *f);
+    bind_frame(w, scene);
+    gl_buffer_bind(&w->views, BIND_VIEWS);
+    if (!use(w, "leaf_view", "", err))
+        return false;
+    dispatch((scene->leaf_count + GROUP_SIZE - 1) / GROUP_SIZE);
+    return true;
+}
+
+enum { SCAN_LEVELS = 3 }; // 2^30 numbers
+
+// to[i] = the sum of from[0 .. i) for n numbers.
+static bool scan(struct gl_work *w, const struct gl_buffer *from, const struct gl_buffer *to,
+                 size_t n, struct error *err)
+{
+    size_t count[SCAN_LEVELS + 1] = {n};
+    const struct gl_buffer *level[SCAN_LEVELS + 1] = {to};
+    uint32_t levels = 0;
+    do {
+        count[levels + 1] = (count[levels] + SCAN_BLOCK - 1) / SCAN_BLOCK;
+        level[levels + 1] = &w->sums[levels];
+        if (!gl_buffer_grow(&w->sums[levels], w->memory, "sums", count[levels + 1] * 4, err))
+            return false;
+    } while (count[++levels] > 1);
+    for (uint32_t i = 0; i < levels; i++) {
+        if (!use(w, "scan", i ? "IN_PLACE" : "SCAN", err))
+            return false;
+        gl_buffer_bind_part(from, BIND_SCAN_IN, 0, n * 4);
+        gl_buffer_bind_part(level[i], BIND_SCAN_OUT, 0, count[i] * 4);
+        gl_buffer_bind_part(level[i + 1], BIND_SCAN_SUMS, 0, count[i + 1] * 4);
+        dispatch(count[i + 1]);
+    }
+    for (uint32_t i = levels - 1; i-- > 0;) {
+        if (!use(w, "scan", "ADD", err))
+            return false;
+        gl_buffer_bind_part(level[i], BIND_SCAN_OUT, 0, count[i] * 4);
+        gl_buffer_bind_part(level[i + 1], BIND_SCAN_SUMS, 0, count[i + 1] * 4);
+        dispatch(count[i + 1]);
+    }
+    return true;
+}
+
+static void bind_triangles(const struct gl_work *w, const struct gl_scene *scene)
+{
+    bind_frame(w, scene);
+    gl_buffer_bind(&w->views, BIND_VIEWS);
+    gl_buffer_bind(&scene->vertices, BIND_VERTICES);
+    gl_buffer_bind(&scene->triangles, BIND_TRIANGLES);
+    gl_buffer_bind(&scene->planes, BIND_PLANES);
+    gl_buffer_bind(&w->starts, BIND_STARTS);
+    gl_buffer_bind(&w->large, BIND_LARGE);
+    gl_buffer_bind(&w->pixel_counts, BIND_COUNTS);
+    gl_buffer_bind(&w->offsets, BIND_OFFSETS);
+    gl_buffer_bind(&w->fragments, BIND_FRAGMENTS);
+    gl_buffer_bind(&w->states, BIND_STATES);
+}
+
+// Takes all triangles, then all pieces of large ones; `define` says what for.
+static bool draw(struct gl_work *w, const struct gl_scene *scene, const char *define,
+                 const char *define_pieces, struct error *err)
+{
+    bind_triangles(w, scene);
+    if (!use(w, "arguments", "TRIANGLES", err))
+        return false;
+    dispatch(1);
+    if (!use(w, "fragments", define, err))
+        return false;
+    dispatch_counted(w);
+    if (!use(w, "arguments", "", err))
+        return false;
+    dispatch(1);
+    if (!use(w, "fragments", define_pieces, err))
+        return false;
+    dispatch_counted(w);
+    return true;
+}
+
+static bool select_leaves(struct gl_work *w, const struct gl_scene *scene, struct error *err)
+{
+    bind_frame(w, scene);
+    gl_buffer_bind(&w->views, BIND_VIEWS);
+    gl_buffer_bind(&w->counts, BIND_COUNTS);
+    if (!use(w, "select", "", err))
+        return false;
+    dispatch(scene->leaf_count / GROUP_SIZE + 1);
+    return scan(w, &w->counts, &w->starts, (size_t)scene->leaf_count + 1, err);
+}
+
+bool gl_work_count(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
+                   uint32_t *fragments, uint32_t *pieces, struct error *err)
+{
+    size_t pixels = pixels_of(f);
+    const uint32_t none = 0;
+    f->large_most = (uint32_t)(w->large.size / 16);
+    f->miss_most = MISS_WORDS;
+    gl_buffer_write(&w->frame, 0, f, sizeof *f);
+    if (!select_leaves(w, scene, err))
+        return false;
+    gl_buffer_write(&w->counters, offsetof(struct counters, large), &none, 4);
+    gl_buffer_fill(&w->pixel_counts, 0, (pixels + 1) * 4, 0);
+    // A buffer of any size: nothing is written to it.
+    if (!gl_buffer_grow(&w->fragments, w->memory, "fragments", sizeof(struct fragment), err) ||
+        !draw(w, scene, "COUNT", "COUNT PIECES", err) ||
+        !scan(w, &w->pixel_counts, &w->offsets, pixels + 1, err))
+        return false;
+    barrier_for_copies();
+    gl_buffer_copy(&w->offsets, pixels * 4, &w->counters, offsetof(struct counters, fragments), 4);
+    const struct counters *c = gl_work_read(w, &w->counters, sizeof *c, err);
+    if (!c)
+        return false;
+    *fragments = c->fragments;
+    *pieces = c->large;
+    return true;
+}
+
+bool gl_work_scatter(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
+                     uint32_t fragments, bool spans, struct error *err)
+{
+    size_t places = fragments / 2 + pixels_of(f); // a ray of n crossings has n / 2 + 1 at most
+    if (spans &&
+        !gl_buffer_grow(&w->output, w->memory, "output", places * sizeof(struct span_data), err))
+        return false;
+    return gl_buffer_grow(&w->fragments, w->memory, "fragments",
+                          (size_t)fragments * sizeof(struct fragment), err) &&
+           draw(w, scene, "SCATTER", "SCATTER PIECES", err);
+}
+
+static void bind_walk(const struct gl_work *w, const struct gl_scene *scene,
+                      const struct gl_table *table, bool spans)
+{
+    bind_frame(w, scene);
+    gl_buffer_bind(&scene->values, BIND_VALUES);
+    gl_buffer_bind(&scene->planes, BIND_PLANES);
+    gl_buffer_bind(&scene->faces, BIND_FACES);
+    gl_buffer_bind(&w->offsets, BIND_OFFSETS);
+    gl_buffer_bind(&w->fragments, BIND_FRAGMENTS);
+    gl_buffer_bind(&w->states, BIND_STATES);
+    gl_buffer_bind(&w->pending[0], BIND_PENDING);
+    gl_buffer_bind(&w->pending[1], BIND_MISSED);
+    gl_buffer_bind(&w->misses, BIND_MISSES);
+    gl_buffer_bind(&w->claims, BIND_CLAIMS);
+    gl_buffer_bind(&w->output, BIND_OUTPUT);
+    gl_buffer_bind(&table->records, BIND_TABLE);
+    if (spans)
+        gl_buffer_bind(&w->span_counts, BIND_SPANS);
+}
+
+// One round of walks; *c: what came of it.
+static bool walk(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
+                 const struct gl_table *table, bool spans, struct counters *c, struct error *err)
+{
+    static const uint32_t none[2];
+    gl_buffer_write(&w->frame, 0, f, sizeof *f);
+    gl_buffer_write(&w->counters, offsetof(struct counters, missed), none, sizeof none);
+    gl_buffer_fill(&w->claims, 0, CLAIMS * 4, 0);
+    bind_walk(w, scene, table, spans);
+    if (!use(w, "resolve", spans ? "SPANS" : "SURFACE", err))
+        return false;
+    dispatch(((f->pending ? f->pending : pixels_of(f)) + GROUP_SIZE - 1) / GROUP_SIZE);
+    const struct counters *now = gl_work_read(w, &w->counters, sizeof *c, err);
+    if (now)
+        *c = *now;
+    return now;
+}
+
+// Evaluates what a round of walks has put on record; *found: how much of it is new.
+static bool learn(struct gl_work *w, const struct body *body, const struct counters *c,
+                  uint32_t *found, struct error *err)
+{
+    size_t words = c->misses < MISS_WORDS ? c->misses : MISS_WORDS;
+    const uint32_t *records = gl_work_read(w, &w->misses, (words ? words : 1) * 4, err);
+    *found = records ? gl_discover(body, records, words) : 0;
+    return records;
+}
+
+bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
+                     struct gl_table *table, const struct body *body, bool spans, uint32_t *stuck,
+                     uint32_t *alive, struct render_stats *stats, struct error *err)
+{
+    struct counters c = {.resume = UINT32_MAX};
+    gl_buffer_write(&w->counters, 0, &c, sizeof c);
+    f->pending = 0;
+    *stuck = 0;
+    for (;;) {
+        if (!gl_table_upload(table, w->memory, body->table, err))
+            return false;
+        f->table_shift = table->shift;
+        if (!walk(w, scene, f, table, spans, &c, err))
+            return false;
+        if (!c.missed)
+            break;
+        struct gl_buffer swap = w->pending[0];
+        w->pending[0] = w->pending[1];
+        w->pending[1] = swap;
+        f->pending = c.missed;
+        uint32_t found;
+        if (!learn(w, body, &c, &found, err))
+            return false;
+        stats->misses += found;
+        if (!found) {
+            *stuck = c.missed;
+            break;
+        }
+    }
+    discovery_settle(body->table);
+    *alive = c.alive;
+    return true;
+}

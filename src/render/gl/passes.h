@@ -1,0 +1,47 @@
+// passes.h - the passes of a band and slab: which leaves, how many crossings, the crossings, walks.
+#pragma once
+#include "render/gl/discover.h"
+#include "render/gl/frame.h"
+#include "render/gl/program.h"
+#include "render/gl/readback.h"
+#include "render/gl/scene.h"
+
+// Buffers of a frame. All are kept from frame to frame and grow as needed.
+struct gl_work {
+    struct gl_memory *memory;
+    struct gl_programs *programs;
+    struct gl_buffer frame, counters;
+    struct gl_buffer views, starts, counts; // per leaf; counts of a select serve the scan only
+    struct gl_buffer large;
+    struct gl_buffer pixel_counts, offsets, states, output, span_counts;
+    struct gl_buffer pending[2], misses, claims;
+    struct gl_buffer fragments;
+    struct gl_buffer sums[3]; // of the blocks of a scan
+    struct gl_readback readback;
+};
+
+void gl_work_free(struct gl_work *w);
+
+// The first bytes of a buffer, valid until the next read. NULL when the context is lost.
+const void *gl_work_read(struct gl_work *w, const struct gl_buffer *from, size_t size,
+                         struct error *err);
+
+// The others return false when the driver has no room or cannot compile.
+
+// Room for everything that belongs to leaves and pixels of a band of `rows` rows.
+bool gl_work_prepare(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
+                     bool spans, struct error *err);
+// How each leaf shows in the picture.
+bool gl_work_views(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
+                   struct error *err);
+// Counts the crossings of a band and slab; *pieces: what of large triangles has no room.
+bool gl_work_count(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
+                   uint32_t *fragments, uint32_t *pieces, struct error *err);
+// Makes the crossings that were counted.
+bool gl_work_scatter(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
+                     uint32_t fragments, bool spans, struct error *err);
+// Walks the rays until no combination is unknown. *stuck: rays of w->pending[0] that cannot go on,
+// since the table has no room for what they need. *alive: rays that go on into the next slab.
+bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
+                     struct gl_table *table, const struct body *body, bool spans, uint32_t *stuck,
+                     uint32_t *alive, struct render_stats *stats, struct error *err);

@@ -1,0 +1,15 @@
+// scene.h - what of a body the shaders read: its solids, each once, and its leaves.
+#pragma once
+#include "model/model.h"
+#include "render/gl/buffer.h"
+
+struct gl_scene {                                        // {0} is valid: nothing uploaded
+    struct gl_buffer vertices, triangles, planes, faces; // of all solids
+    struct gl_buffer leaves, values;                     // per leaf
+    uint32_t leaf_count;
+};
+
+// Inside of the context. False when there is no room.
+bool gl_scene_upload(struct gl_scene *s, struct gl_memory *memory, const struct body *body,
+                     struct error *err);
+void gl_scene_free(struct gl_scene *s); // leaves {0}
