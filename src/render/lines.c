@@ -44,10 +44,12 @@ static void put(const struct pen *p, int x, int y, double weight)
             return;
         p->depth[i] = depth;
     }
-    uint8_t bytes[3] = {p->style->colour.r, p->style->colour.g, p->style->colour.b};
-    for (int k = 0; k < 3; k++)
-        c->rgb[3 * i + (size_t)k] =
-            p->style->half ? (uint8_t)((c->rgb[3 * i + (size_t)k] + bytes[k]) / 2) : bytes[k];
+    const uint8_t bytes[3] = {p->style->colour.r, p->style->colour.g, p->style->colour.b};
+    for (int k = 0; k < 3; k++) {
+        uint8_t *to = &c->rgb[3 * i + (size_t)k];
+        unsigned average = ((unsigned)*to + bytes[k]) / 2;
+        *to = p->style->half ? (uint8_t)average : bytes[k];
+    }
 }
 
 static double snapped(double v)
