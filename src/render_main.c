@@ -14,6 +14,15 @@ static void hold_standard_streams(void)
             (void)!open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
 }
 
+static int tell_info(const struct given *given)
+{
+    struct error err;
+    enum device_wish device;
+    if (!device_wish_parse(&device, given->device, &err))
+        return command_fail(&err, EXIT_INPUT);
+    return info_print(device, &err) ? EXIT_FINE : command_fail(&err, EXIT_OUTPUT);
+}
+
 int main(int argc, char **argv)
 {
     struct error err;
@@ -33,7 +42,7 @@ int main(int argc, char **argv)
         break;
     }
     if (given.info)
-        return info_print(&err) ? EXIT_FINE : command_fail(&err, EXIT_OUTPUT);
+        return tell_info(&given);
     return request_make(&request, &given, &err) ? command_run(&request)
                                                 : command_fail(&err, EXIT_INPUT);
 }

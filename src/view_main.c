@@ -19,7 +19,7 @@ static struct {
     double epsilon;
     struct option_list import_folders;
     bool stats, no_watch;
-} given = {.size = {1024, 768}, .epsilon = -1, .megabytes = 256};
+} given = {.size = {1024, 768}, .epsilon = -1, .megabytes = 256, .device = "auto"};
 
 static const struct option options[] = {
     {"camera", 0, OPTION_TEXT, "NUMBERS", "x,y,z,rx,ry,rz,distance or eye and centre x,y,z,x,y,z",
@@ -30,7 +30,9 @@ static const struct option options[] = {
      0},
     {"size", 0, OPTION_SIZE, "W,H", "of the window in pixels, 1024,768 if not given", given.size,
      64, 16384},
-    {"device", 0, OPTION_TEXT, "auto|cpu", "what draws", &given.device, 0, 0},
+    {"device", 0, OPTION_TEXT, "auto|cpu|gl",
+     "what draws: the processor, or OpenGL, by default\nwhere there is a graphics processor for it",
+     &given.device, 0, 0},
     {"threads", 0, OPTION_COUNT, "N", "for drawing, one per processor if not given", &given.threads,
      0, 256},
     {"memory", 0, OPTION_COUNT, "MB", "memory to draw with, beside model and picture (default 256)",
@@ -48,14 +50,6 @@ static const struct option options[] = {
 };
 
 static struct scheme own_scheme; // of a file
-
-static bool check_device(struct error *err)
-{
-    if (!given.device || strcmp(given.device, "auto") == 0 || strcmp(given.device, "cpu") == 0)
-        return true;
-    error_set(err, "--device: expected auto or cpu, got '%s'", given.device);
-    return false;
-}
 
 // Said before a window opens; a file that breaks later, or does not exist yet, only leaves a
 // message in the window.
@@ -92,7 +86,7 @@ static bool set_options(struct viewer_options *o, struct error *err)
         .height = given.size[1],
         .watch = !given.no_watch,
         .stats = given.stats};
-    return o->scheme && check_device(err) &&
+    return o->scheme && device_wish_parse(&o->device, given.device, err) &&
            (!given.camera || camera_parse(&o->camera, given.camera, err)) &&
            (!given.projection || camera_parse_projection(&o->camera, given.projection, err));
 }

@@ -11,6 +11,7 @@
 
 struct drawing {
     uv_thread_t thread;
+    struct device *device;
     void (*done)(void *context);
     void *context;
 
@@ -19,6 +20,7 @@ struct drawing {
     struct drawing_job next; // loaded NULL: nothing asked for
     struct shot newest;
     bool fresh, stopping;
+    struct error failure;  // of the device; empty: none, or taken
     int divisor;           // of the picture being drawn, 0 when none is
     atomic_bool cancelled; // that picture is not wanted any more
 };
@@ -59,7 +61,6 @@ static void exchange(struct shot *a, struct shot *b)
 static void run(void *context)
 {
     struct drawing *d = context;
-    struct device *device = cpu_device_new();
     struct picture picture = {0};
     struct shot work = {0};
     for (;;) {
@@ -77,8 +78,12 @@ static void run(void *context)
             break;
         }
         job.settings.cancelled = &d->cancelled;
-        draw(&work, &job, device, &picture);
+        draw(&work, &job, d->device, &picture);
+        struct error failure;
+        bool failed = device_failed(d->device, &failure);
         uv_mutex_lock(&d->mutex);
+        if (failed)
+            d->failure = failure;
         bool whole = !atomic_load(&d->cancelled);
         d->divisor = 0;
         if (whole) {
@@ -91,12 +96,13 @@ static void run(void *context)
     }
     shot_free(&work);
     picture_free(&picture);
-    device_delete(device);
 }
 
-struct drawing *drawing_start(void (*done)(void *context), void *context, struct error *err)
+struct drawing *drawing_start(struct device *device, void (*done)(void *context), void *context,
+                              struct error *err)
 {
     struct drawing *d = mem_zalloc(sizeof *d);
+    d->device = device;
     d->done = done;
     d->context = context;
     uv_mutex_init(&d->mutex);
@@ -106,6 +112,7 @@ struct drawing *drawing_start(void (*done)(void *context), void *context, struct
         error_set(err, "cannot start a thread: %s", uv_strerror(failed));
         uv_cond_destroy(&d->asked);
         uv_mutex_destroy(&d->mutex);
+        device_delete(device);
         free(d);
         return NULL;
     }
@@ -136,6 +143,17 @@ bool drawing_take(struct drawing *d, struct shot *shot)
     return fresh;
 }
 
+bool drawing_failed(struct drawing *d, struct error *why)
+{
+    uv_mutex_lock(&d->mutex);
+    bool failed = d->failure.text[0] != 0;
+    if (failed)
+        *why = d->failure;
+    d->failure.text[0] = 0;
+    uv_mutex_unlock(&d->mutex);
+    return failed;
+}
+
 void drawing_stop(struct drawing *d)
 {
     if (!d)
@@ -147,6 +165,7 @@ void drawing_stop(struct drawing *d)
     uv_mutex_unlock(&d->mutex);
     uv_thread_join(&d->thread);
     shot_free(&d->newest);
+    device_delete(d->device);
     uv_cond_destroy(&d->asked);
     uv_mutex_destroy(&d->mutex);
     free(d);

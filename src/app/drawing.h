@@ -24,11 +24,14 @@ struct shot { // {0} is a valid empty shot
 void shot_free(struct shot *s); // leaves {0}
 
 struct drawing;
-// `done` is called from the drawing thread after each shot.
-struct drawing *drawing_start(void (*done)(void *context), void *context, struct error *err);
+// Takes the device over. `done` is called from the drawing thread after each shot.
+struct drawing *drawing_start(struct device *device, void (*done)(void *context), void *context,
+                              struct error *err);
 // Replaces what was asked for before and is not begun yet. A finer picture that is being drawn is
 // given up: then no shot comes of it.
 void drawing_ask(struct drawing *d, const struct drawing_job *job);
+// That of the device, from any thread.
+bool drawing_failed(struct drawing *d, struct error *why);
 // Exchanges *shot for the newest one; false when there is none since the last call.
 bool drawing_take(struct drawing *d, struct shot *shot);
 void drawing_stop(struct drawing *d);

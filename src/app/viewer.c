@@ -170,6 +170,16 @@ static void save_picture(struct viewer *v)
     show_state(v);
 }
 
+static void take_failure(struct viewer *v)
+{
+    struct error why;
+    if (!drawing_failed(v->drawing, &why))
+        return;
+    fprintf(stderr, "hcsg-view: %s\n", why.text);
+    snprintf(v->note, sizeof v->note, "%s", why.text);
+    show_state(v);
+}
+
 static void take_shot(struct viewer *v)
 {
     if (!drawing_take(v->drawing, &v->shown))
@@ -243,6 +253,7 @@ static void run(struct viewer *v)
         if (v->ended)
             return;
         take_shot(v);
+        take_failure(v);
         obey(v);
         double wait = plan(v);
         if (v->input.exposed && is_seen(v)) {
@@ -268,10 +279,19 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
                                      .watch = options->watch,
                                      .woken = wake};
     v.framed = options->fixed_camera;
-    v.window = window_new(options->width, options->height, options->scheme->background, err);
-    if (!v.window)
+    struct error why;
+    struct device *device = device_choose(options->device, &why);
+    if (!device)
+        *err = why;
+    else
+        v.window = window_new(options->width, options->height, options->scheme->background, err);
+    if (!v.window) {
+        device_delete(device);
         return false;
-    v.drawing = drawing_start(wake, NULL, err);
+    }
+    if (options->stats)
+        printf("device: %s\n", why.text);
+    v.drawing = drawing_start(device, wake, NULL, err);
     v.loader = v.drawing ? loader_start(&loading, err) : NULL;
     if (v.loader) {
         input_attach(&v.input, window_handle(v.window));

@@ -2,6 +2,7 @@
 #pragma once
 #include "base/error.h"
 #include "render/camera.h"
+#include "render/choose.h"
 #include "render/scheme.h"
 
 #include <stddef.h>
@@ -15,6 +16,7 @@ struct viewer_options {
     double epsilon;                    // negative: chosen by the model
     const char *const *import_folders; // of struct model_options
     uint32_t import_folder_count;
+    enum device_wish device;
     uint32_t threads;
     size_t memory; // of struct render_settings
     int width, height;

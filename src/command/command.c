@@ -131,6 +131,7 @@ static bool stops_at_warnings(const struct request *r, const struct messages *me
 static int run_frame(struct run *run, struct request *r, uint32_t number)
 {
     int code = EXIT_INPUT;
+    struct error err;
     struct model model = {0};
     struct timing times = {0};
 
@@ -146,6 +147,8 @@ static int run_frame(struct run *run, struct request *r, uint32_t number)
     print_messages(r, &run->messages);
     if (read && !stops_at_warnings(r, &run->messages))
         code = produce(run, r, &model, &times);
+    if (device_failed(run->device, &err) && !r->quiet)
+        fprintf(stderr, "warning: %s\n", err.text);
     if (code == EXIT_FINE && r->rule)
         rule_note(&run->rule, r, &run->input, &model);
     model_free(&model);
@@ -171,8 +174,11 @@ static int run_frames(struct run *run, const struct request *r)
 int command_run(const struct request *r)
 {
     int code = EXIT_INPUT;
-    struct run run = {
-        .store = solid_store_new(), .device = cpu_device_new(), .began = clock_seconds()};
+    struct error why;
+    struct run run = {.device = device_choose(r->device, &why), .began = clock_seconds()};
+    if (!run.device)
+        return command_fail(&why, EXIT_INPUT);
+    run.store = solid_store_new();
     if (input_open(&run.input, r, &run.messages))
         code = run_frames(&run, r);
     else

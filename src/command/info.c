@@ -17,22 +17,29 @@ static void print_system(void)
     printf("Libraries: %s\n", HCSG_LIBRARIES);
 }
 
-static void print_devices(void)
+static void print_context(void)
 {
     struct error why;
     struct gl_context *context = gl_context_new(NULL, &why);
-    printf("Device cpu: %u threads\n", parallel_workers(0));
-    if (context) {
-        const struct gl_facts *f = gl_context_facts(context);
-        printf("Device gl: %s, %s%s\n", f->renderer, f->version,
-               f->software ? ", in software" : "");
-        if (!gl_facts_suffice(f, &why))
-            printf("Device gl: %s\n", why.text);
-        gl_context_delete(context);
-    } else {
+    if (!context) {
         printf("Device gl: %s\n", why.text);
+        return;
     }
-    puts("Draws with: cpu, the only one that draws so far");
+    const struct gl_facts *f = gl_context_facts(context);
+    printf("Device gl: %s, %s%s\n", f->renderer, f->version, f->software ? ", in software" : "");
+    if (!gl_facts_suffice(f, &why))
+        printf("Device gl: %s\n", why.text);
+    gl_context_delete(context);
+}
+
+static void print_devices(enum device_wish wish)
+{
+    struct error why;
+    printf("Device cpu: %u threads\n", parallel_workers(0));
+    print_context();
+    struct device *device = device_choose(wish, &why);
+    printf("Draws with: %s\n", why.text);
+    device_delete(device);
 }
 
 static void print_variable(const char *name)
@@ -41,11 +48,11 @@ static void print_variable(const char *name)
     printf("%s: %s\n", name, value && *value ? value : "not set");
 }
 
-bool info_print(struct error *err)
+bool info_print(enum device_wish device, struct error *err)
 {
     printf("hcsg %s\n", HCSG_VERSION);
     print_system();
-    print_devices();
+    print_devices(device);
     scheme_print_folders(stdout);
     print_variable("OPENSCAD");
     print_variable("OPENSCAD_FONT_PATH");

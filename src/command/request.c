@@ -242,14 +242,6 @@ static bool set_mode(struct request *out, const struct given *given, struct erro
     return true;
 }
 
-static bool check_device(const struct given *given, struct error *err)
-{
-    if (!given->device || strcmp(given->device, "auto") == 0 || strcmp(given->device, "cpu") == 0)
-        return true;
-    error_set(err, "--device: expected auto or cpu, got '%s'", given->device);
-    return false;
-}
-
 static bool set_transparency(struct request *out, const struct given *given, struct error *err)
 {
     out->sorted = strcmp(given->transparency, "sorted") == 0;
@@ -268,7 +260,8 @@ bool request_make(struct request *out, const struct given *given, struct error *
                             .hard_warnings = given->hard_warnings,
                             .quiet = given->quiet};
     if (!set_input(out, given, err) || !set_openscad(out, given, err) ||
-        !set_passed(out, given, err) || !set_mode(out, given, err) || !check_device(given, err))
+        !set_passed(out, given, err) || !set_mode(out, given, err) ||
+        !device_wish_parse(&out->device, given->device, err))
         return false;
     out->view = view_parse(given->view);
     out->scheme = scheme_choose(given->scheme, &out->own_scheme, err);

@@ -6,6 +6,7 @@
 #include "command/summary_parts.h"
 #include "command/view.h"
 #include "render/camera.h"
+#include "render/choose.h"
 #include "render/scheme.h"
 
 enum { PIXELS_MOST = 1 << 26 };
@@ -47,6 +48,7 @@ struct request {       // borrows from the command line
     bool united;    // MODEL_RENDER: of struct model_options
     bool sorted;    // see-through surfaces by their depth, not in the order of the file
     double epsilon; // negative: the default for the model
+    enum device_wish device;
     uint32_t threads;
     size_t memory;
     struct option_list import_folders;

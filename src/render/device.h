@@ -114,6 +114,7 @@ struct device_kind {
 
 struct device {
     const struct device_kind *kind;
+    char description[300];  // what it draws with, "" for nothing to be said
     struct device *instead; // has taken over; NULL: this one works
     struct error failure;   // not yet asked for; empty: none
 };

@@ -2,6 +2,7 @@
 #pragma once
 #include "options.h"
 
-// The two ways of the device on the processor. Both return the exit status of the program.
+// The device on the processor, by itself or as it is told to walk, and the device under test; of
+// the processor its two ways. Both return the exit status of the program.
 int agree_random(const struct options *options);
 int agree_file(const struct options *options);

@@ -21,7 +21,9 @@ static int parse_option(struct options *o, int left, char **argv)
     }
     if (left < 2)
         return 0;
-    if (!strcmp(argv[0], "--count"))
+    if (!strcmp(argv[0], "--device") && !strcmp(argv[1], "gl"))
+        o->gl = true;
+    else if (!strcmp(argv[0], "--count"))
         o->count = (uint32_t)strtoul(argv[1], NULL, 10);
     else if (!strcmp(argv[0], "--threads"))
         o->threads = (uint32_t)strtoul(argv[1], NULL, 10);
@@ -67,5 +69,7 @@ bool options_parse(struct options *out, int argc, char **argv)
             return false;
         }
     }
+    if (out->gl)
+        out->threads = 1; // of drawing, one context is enough
     return true;
 }

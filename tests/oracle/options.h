@@ -12,6 +12,7 @@ struct options {
     bool one_pixel;
     int x, y;
     enum walk walk;
+    bool gl; // the device under test
     size_t memory;
 };
 

@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "render/choose.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -114,12 +115,22 @@ struct expr_token *subject_tokens(const struct expr *e, size_t *count)
     return tokens;
 }
 
-void crew_init(struct crew *out, uint32_t threads)
+struct device *device_under_test(bool gl)
+{
+    struct error why;
+    struct device *d = device_choose(gl ? DEVICE_GL : DEVICE_CPU, &why);
+    if (d)
+        return d;
+    printf("skipped: %s\n", why.text);
+    exit(77);
+}
+
+void crew_init(struct crew *out, uint32_t threads, bool gl)
 {
     out->count = parallel_workers(threads);
     out->devices = mem_alloc(out->count * sizeof(struct device *));
     for (uint32_t i = 0; i < out->count; i++)
-        out->devices[i] = cpu_device_new();
+        out->devices[i] = device_under_test(gl);
 }
 
 void crew_free(struct crew *c)
@@ -165,6 +176,11 @@ void picture_render(struct picture *out, struct device *device, const struct bod
     device_first_surface(device, body, rays, settings, &out->image, NULL, NULL,
                          &out->surface_stats);
     device_spans(device, body, rays, settings, collect, &c, &out->span_stats);
+    struct error why;
+    if (device_failed(device, &why)) { // what there is was drawn by another one
+        printf("%s\n", why.text);
+        exit(1);
+    }
 }
 
 void picture_free(struct picture *p)

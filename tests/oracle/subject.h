@@ -22,8 +22,11 @@ struct crew {
     struct device **devices;
     uint32_t count;
 };
-void crew_init(struct crew *out, uint32_t threads);
+void crew_init(struct crew *out, uint32_t threads, bool gl);
 void crew_free(struct crew *c); // leaves {0}
+
+// The one under test. Where there is no OpenGL the program says so and ends: skipped.
+struct device *device_under_test(bool gl);
 
 struct pixel_spans {
     struct span *items;

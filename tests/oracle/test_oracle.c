@@ -6,6 +6,7 @@
 //   test_oracle FILE.csg WIDTH HEIGHT                         a file from several sides
 //   test_oracle agree random [--count N] ...                  two ways to draw, not the oracle
 //   test_oracle agree FILE.csg WIDTH HEIGHT ...
+// --device gl: of the device on the graphics processor. --hash: the one on the processor walks.
 #include "agree_runs.h"
 #include "base/mem.h"
 #include "base/parallel.h"
@@ -167,7 +168,7 @@ static int run_random(const struct options *options)
 {
     struct outcome *outcomes = mem_zalloc(options->count * sizeof *outcomes);
     struct job job = {.options = options, .outcomes = outcomes};
-    crew_init(&job.crew, options->threads);
+    crew_init(&job.crew, options->threads, options->gl);
     parallel_for(options->count, options->threads, compare_seed, &job);
     crew_free(&job.crew);
     struct outcome sum[2] = {{0}, {0}};
@@ -202,7 +203,7 @@ static int run_pixel(const struct options *options)
         .epsilon = scene.epsilon, .threads = 1, .walk = options->walk};
     printf("seed %llu, %u leaves, pixel %d %d of %d x %d\n", (unsigned long long)options->seed,
            scene.leaf_count, options->x, options->y, scene.rays.width, scene.rays.height);
-    struct device *device = cpu_device_new();
+    struct device *device = device_under_test(options->gl);
     report_smallest(stdout, device, &scene, &settings, options->x, options->y);
     device_delete(device);
     random_scene_free(&scene);
@@ -219,9 +220,10 @@ static void enlarge(struct rays *r, int times)
 }
 
 // Pictures of `count` trees with all settings are bit-identical to those with the first.
-static int run_same(const char *name, const struct render_settings *settings, int setting_count,
-                    uint32_t count, int times)
+static int run_same(const struct options *options, const struct render_settings *settings,
+                    int setting_count, uint32_t count, int times)
 {
+    struct device *device = device_under_test(options->gl);
     int different = 0;
     size_t peak = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -235,9 +237,7 @@ static int run_same(const char *name, const struct render_settings *settings, in
             struct picture *p = k ? &other : &first;
             struct render_settings s = settings[k];
             s.epsilon = scene.epsilon;
-            struct device *device = cpu_device_new();
             picture_render(p, device, &subject.body, &scene.rays, &s);
-            device_delete(device);
             int x, y;
             size_t bytes = p->surface_stats.peak_bytes > p->span_stats.peak_bytes
                                ? p->surface_stats.peak_bytes
@@ -260,7 +260,9 @@ static int run_same(const char *name, const struct render_settings *settings, in
         subject_free(&subject);
         random_scene_free(&scene);
     }
-    printf("%s: %u trees, %d differences, at most %zu bytes\n", name, count, different, peak);
+    device_delete(device);
+    printf("%s: %u trees, %d differences, at most %zu bytes\n", options->mode, count, different,
+           peak);
     return different ? 1 : 0;
 }
 
@@ -283,7 +285,7 @@ static void judge_side(void *context, const struct side *side)
 
 static int run_file(const struct options *o)
 {
-    struct file_job job = {.device = cpu_device_new()};
+    struct file_job job = {.device = device_under_test(o->gl)};
     bool read = sides_of_file(o->file, o->width, o->height, judge_side, &job);
     device_delete(job.device);
     return read && !job.failed ? 0 : 1;
@@ -304,10 +306,10 @@ int main(int argc, char **argv)
     if (options.file)
         return run_file(&options);
     if (!strcmp(options.mode, "threads"))
-        return run_same(options.mode, threads, array_count(threads), 40, 8);
+        return run_same(&options, threads, array_count(threads), 40, 8);
     if (!strcmp(options.mode, "memory"))
-        return run_same(options.mode, memory, array_count(memory), 16, 24);
+        return run_same(&options, memory, array_count(memory), 16, 24);
     if (!strcmp(options.mode, "walks"))
-        return run_same(options.mode, walks, array_count(walks), 40, 2);
+        return run_same(&options, walks, array_count(walks), 40, 2);
     return options.one_pixel ? run_pixel(&options) : run_random(&options);
 }

@@ -125,20 +125,47 @@ static bool try_display(struct gl_context *c, EGLDisplay display, const char *na
     return true;
 }
 
+enum { DEVICES_MOST = 32 };
+
+static bool devices_told(void)
+{
+    return epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") &&
+           epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") &&
+           epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_query");
+}
+
+static bool is_software(EGLDeviceEXT device)
+{
+    const char *extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+    return extensions && strstr(extensions, "EGL_MESA_device_software");
+}
+
+bool gl_hardware_there(struct error *err)
+{
+    if (!libraries_there(err))
+        return false;
+    EGLDeviceEXT devices[DEVICES_MOST];
+    EGLint count = 0;
+    if (!devices_told() || !eglQueryDevicesEXT(DEVICES_MOST, devices, &count))
+        return true; // nobody knows before a context is made
+    for (EGLint i = 0; i < count; i++)
+        if (!is_software(devices[i]))
+            return true;
+    error_set(err, "there is no graphics processor with a driver");
+    return false;
+}
+
 static bool try_devices(struct gl_context *c, struct reasons *reasons)
 {
-    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") ||
-        !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") ||
-        !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_query"))
+    if (!devices_told())
         return because(reasons, "devices", "not known to EGL"), false;
-    EGLDeviceEXT devices[32];
+    EGLDeviceEXT devices[DEVICES_MOST];
     EGLint count = 0;
-    if (!eglQueryDevicesEXT(array_count(devices), devices, &count) || !count)
+    if (!eglQueryDevicesEXT(DEVICES_MOST, devices, &count) || !count)
         return because(reasons, "devices", "none"), false;
     for (int software = 0; software < 2; software++)
         for (EGLint i = 0; i < count; i++) {
-            const char *extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
-            if (software != (extensions && strstr(extensions, "EGL_MESA_device_software")))
+            if (software != is_software(devices[i]))
                 continue;
             char name[32];
             snprintf(name, sizeof name, "device %d", i);

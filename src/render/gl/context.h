@@ -38,6 +38,10 @@ const struct gl_facts *gl_context_facts(const struct gl_context *c);
 // True if the driver has all that the gl device needs beyond OpenGL 4.5.
 bool gl_facts_suffice(const struct gl_facts *facts, struct error *err);
 
+// False, with a reason, when EGL lists its devices and knows of no graphics processor. Takes no
+// longer than loading EGL.
+bool gl_hardware_there(struct error *err);
+
 // Makes the context current on this thread; leaving puts back what was current before, be it of EGL
 // or GLX. One thread at a time, and not twice.
 bool gl_context_enter(struct gl_context *c, struct error *err);

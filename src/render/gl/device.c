@@ -348,6 +348,8 @@ struct device *gl_device_new(bool software, struct error *err)
         struct gl_device *d = mem_zalloc(sizeof *d);
         d->device.kind = &kind;
         d->context = context;
+        snprintf(d->device.description, sizeof d->device.description, "%s, OpenGL %s",
+                 facts->renderer, facts->version);
         gl_programs_init(&d->programs, NULL);
         d->model.budget = d->memory.budget = SIZE_MAX;
         d->work.memory = &d->memory;
