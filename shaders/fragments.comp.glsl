@@ -113,8 +113,7 @@ void draw(uint leaf, uint triangle, polygon p, int part, int way, pixel_range r,
     bool leaving = way > 0 != (frame.mirrored != 0);
     // In perspective a ray begins at the eye, in what it leaves more often than it enters: each
     // crossing of a leaf that reaches up to there has its counterpart at the start.
-    bool begun =
-        frame.slab_first != 0 && frame.orthographic == 0 && views[leaf].near <= frame.start;
+    bool begun = frame.orthographic == 0 && views[leaf].near <= frame.start;
     for (int y = r.y0 + first.y; y <= r.y1; y += step)
         for (int x = r.x0 + first.x; x <= r.x1; x += step) {
             ivec2 pixel = ivec2(x, y);

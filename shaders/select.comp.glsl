@@ -25,11 +25,12 @@ void main()
         return;
     bool drawn = false;
     if (i < frame.leaf_count) {
-        bool begun = views[i].near <= frame.start && frame.slab_first != 0;
+        bool begun = views[i].near <= frame.start && (frame.slab_first != 0 ||
+                                                      count.resume <= ordered(frame.start));
         drawn = views[i].shows != 0 && views[i].y0 <= float(frame.band + frame.rows - 1) &&
                 views[i].y1 >= float(frame.band) &&
                 (begun || views[i].near <= frame.slab_end) &&
-                (frame.slab_first != 0 || ordered(views[i].far) >= count.resume);
+                (begun || frame.slab_first != 0 || ordered(views[i].far) >= count.resume);
     }
     counts[i] = drawn ? leaves[i].triangle_count : 0;
 }

@@ -1,6 +1,8 @@
 // discovery.c - combinations met so far, and how new ones come in.
 #include "hcsg/discovery.h"
 
+#include "base/clock.h"
+#include "base/hash.h"
 #include "base/mem.h"
 
 #include <pthread.h>
@@ -20,6 +22,7 @@ struct combinations {
     struct table *retired[TABLE_BITS_MOST]; // a reader may still be in one
     uint32_t retired_count;
     uint32_t rebuilds;
+    uint64_t identity, version;
     struct arena sets;
 };
 
@@ -37,6 +40,8 @@ struct discovery *discovery_new(const struct expr *e, const struct sharing *s)
 {
     struct combinations *c = mem_aligned(alignof(struct combinations), sizeof *c);
     *c = (struct combinations){.expr = e, .sharing = s};
+    // Never two at one place at one time.
+    c->identity = hash_mix((uint64_t)(clock_seconds() * 1e9) ^ hash_mix((uintptr_t)c));
     pthread_mutex_init(&c->lock, NULL);
     atomic_init(&c->hot.table, table_new(TABLE_BITS_FIRST));
     return &c->hot;
@@ -69,6 +74,7 @@ void discovery_clear(struct discovery *d)
     table_delete(current(c));
     arena_free(&c->sets);
     c->rebuilds = 0;
+    c->version++;
     atomic_store_explicit(&d->table, table_new(TABLE_BITS_FIRST), memory_order_release);
 }
 
@@ -139,6 +145,7 @@ static void remember(struct combinations *c, uint64_t key, bool solid, const str
 {
     struct table *before = current(c);
     bool stored;
+    c->version++;
     struct table *t = table_add(before, key, solid, NULL, &stored);
     if (stored)
         t->sets[table_place(t, key)] = keep_set(c, set, count);
@@ -237,9 +244,24 @@ void discovery_renew(struct discovery *d)
     struct combinations *c = whole(d);
     struct table *t = current(c);
     discovery_settle(d);
+    c->version++;
     for (uint32_t i = 0; i < table_capacity(t); i++)
         if (t->sets[i])
             table_renew(t, i, key_of_set(c->sharing, t->sets[i]));
+}
+
+uint64_t discovery_identity(struct discovery *d)
+{
+    return whole(d)->identity;
+}
+
+uint64_t discovery_version(struct discovery *d)
+{
+    struct combinations *c = whole(d);
+    pthread_mutex_lock(&c->lock);
+    uint64_t version = c->version;
+    pthread_mutex_unlock(&c->lock);
+    return version;
 }
 
 struct discovery_stats discovery_stats(struct discovery *d)

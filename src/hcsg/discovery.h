@@ -50,6 +50,11 @@ bool discovery_extend(struct discovery *d, uint64_t from, const struct class_ste
 // before are meaningless afterwards. Not while another thread uses `d`.
 void discovery_renew(struct discovery *d);
 
+// Two numbers for those who keep copies of the table: no two objects have the first in common; the
+// second changes whenever the table does.
+uint64_t discovery_identity(struct discovery *d);
+uint64_t discovery_version(struct discovery *d);
+
 struct discovery_stats {
     uint32_t combinations, capacity; // records and places
     double average_age, max_age;     // probes that a hit takes, counted from 1

@@ -14,6 +14,15 @@ enum {
     MEMORY_DEFAULT = 256 << 20,
     PIXEL_BYTES = 64, // of all buffers of a band, rounded up
     CHUNK_ROWS = 64,  // are told of at once
+    RESIDENTS = 8,    // bodies that stay on the graphics processor
+};
+
+// A body on the graphics processor.
+struct resident {
+    uint64_t identity; // discovery_identity
+    uint64_t used;     // number of the picture that used it last
+    struct gl_scene scene;
+    struct gl_table table;
 };
 
 struct gl_device {
@@ -23,6 +32,8 @@ struct gl_device {
     struct gl_memory model;  // account of what comes from the body
     struct gl_memory memory; // and of everything else
     struct gl_work work;
+    struct resident residents[RESIDENTS];
+    uint64_t pictures;
 };
 
 // A picture that is being drawn.
@@ -32,8 +43,7 @@ struct drawing {
     const struct rays *rays;
     const struct render_settings *settings;
     struct render_stats *stats;
-    struct gl_scene scene;
-    struct gl_table table;
+    struct resident *resident;
     struct frame_data frame;
     bool spans;
     float near, far; // keys between which leaves lie
@@ -59,7 +69,7 @@ static bool fill(struct drawing *g, float begin, bool *failed)
     uint32_t fragments, pieces;
     *failed = false;
     for (;;) {
-        if (!gl_work_count(w, &g->scene, f, &fragments, &pieces, g->err)) {
+        if (!gl_work_count(w, &g->resident->scene, f, &fragments, &pieces, g->err)) {
             *failed = true;
             return false;
         }
@@ -83,7 +93,7 @@ static bool fill(struct drawing *g, float begin, bool *failed)
         f->slab_last = false;
     }
     g->stats->fragments += fragments;
-    *failed = !gl_work_scatter(w, &g->scene, f, fragments, g->spans, g->err);
+    *failed = !gl_work_scatter(w, &g->resident->scene, f, fragments, g->spans, g->err);
     return !*failed;
 }
 
@@ -95,16 +105,16 @@ static enum outcome draw_band(struct drawing *g, uint32_t *stuck)
     float begin = g->near;
     uint32_t alive = 1;
     bool failed;
-    if (!gl_work_prepare(&g->d->work, &g->scene, f, g->spans, g->err) ||
-        !gl_work_views(&g->d->work, &g->scene, f, g->err))
+    if (!gl_work_prepare(&g->d->work, &g->resident->scene, f, g->spans, g->err) ||
+        !gl_work_views(&g->d->work, &g->resident->scene, f, g->err))
         return BAND_FAILED;
     for (f->slab_first = true; alive; f->slab_first = false) {
         f->slab_end = f->end;
         f->slab_last = true;
         if (!fill(g, begin, &failed))
             return failed ? BAND_FAILED : BAND_TOO_LARGE;
-        if (!gl_work_resolve(&g->d->work, &g->scene, f, &g->table, g->body, g->spans, stuck, &alive,
-                             g->stats, g->err))
+        if (!gl_work_resolve(&g->d->work, &g->resident->scene, f, &g->resident->table, g->body,
+                             g->spans, stuck, &alive, g->stats, g->err))
             return BAND_FAILED;
         if (*stuck || f->slab_last || cancelled(g))
             break;
@@ -145,22 +155,49 @@ static int draw(struct drawing *g, bool (*take)(struct drawing *g, void *context
     return f->height;
 }
 
-static bool begin(struct drawing *g)
+static void evict(struct resident *r)
+{
+    gl_scene_free(&r->scene);
+    gl_buffer_free(&r->table.records);
+    *r = (struct resident){0};
+}
+
+// Makes the body resident, in place of the one that was not used for longest.
+static bool settle(struct drawing *g)
 {
     struct gl_device *d = g->d;
+    uint64_t identity = discovery_identity(g->body->table);
+    struct resident *oldest = d->residents;
+    d->pictures++;
+    for (int i = 0; i < RESIDENTS; i++) {
+        struct resident *r = &d->residents[i];
+        if (r->identity == identity) {
+            r->used = d->pictures;
+            g->resident = r;
+            return true;
+        }
+        oldest = r->used < oldest->used ? r : oldest;
+    }
+    evict(oldest);
+    if (!gl_scene_upload(&oldest->scene, &d->model, g->body, g->err)) {
+        evict(oldest);
+        return false;
+    }
+    oldest->identity = identity;
+    oldest->used = d->pictures;
+    g->resident = oldest;
+    return true;
+}
+
+static bool begin(struct drawing *g)
+{
     size_t budget = g->settings->memory ? g->settings->memory : MEMORY_DEFAULT;
-    size_t block = gl_context_facts(d->context)->storage_size;
+    size_t block = gl_context_facts(g->d->context)->storage_size;
     g->most = (budget < block ? budget / 2 : block / 2) / sizeof(struct fragment);
     gl_frame_init(&g->frame, g->body, g->rays, g->settings);
     if (!gl_frame_range(&g->frame, g->rays, g->body, &g->near, &g->far))
         g->near = g->far = g->frame.start;
-    return gl_scene_upload(&g->scene, &d->model, g->body, g->err);
-}
-
-static void end(struct drawing *g)
-{
-    gl_scene_free(&g->scene);
-    gl_buffer_free(&g->table.records);
+    return settle(g);
 }
 
 // Draws in the context.
@@ -176,7 +213,6 @@ static int run(struct drawing *g, bool (*take)(struct drawing *g, void *context)
         rows = draw(g, take, context);
         g->stats->seconds_draw = clock_seconds() - begun;
     }
-    end(g);
     g->stats->peak_bytes = g->d->memory.peak;
     gl_context_leave(g->d->context);
     return rows;
@@ -327,6 +363,8 @@ static void delete (struct device *device)
     struct gl_device *d = (struct gl_device *)device;
     struct error err;
     if (gl_context_enter(d->context, &err)) {
+        for (int i = 0; i < RESIDENTS; i++)
+            evict(&d->residents[i]);
         gl_work_free(&d->work);
         gl_programs_free(&d->programs);
         gl_context_leave(d->context);

@@ -9,6 +9,9 @@
 bool gl_table_upload(struct gl_table *t, struct gl_memory *memory, struct discovery *d,
                      struct error *err)
 {
+    uint64_t version = discovery_version(d);
+    if (t->records.id && t->version == version)
+        return true;
     const struct table *table = atomic_load_explicit(&d->table, memory_order_acquire);
     size_t size = (size_t)table_capacity(table) * sizeof table->records[0];
     // Nobody writes while a frame is drawn but the thread that draws it.
@@ -16,7 +19,7 @@ bool gl_table_upload(struct gl_table *t, struct gl_memory *memory, struct discov
         return false;
     gl_buffer_write(&t->records, 0, (const void *)table->records, size);
     t->shift = table->shift;
-    t->combinations = table->count;
+    t->version = version;
     return true;
 }
 

@@ -6,7 +6,7 @@
 struct gl_table { // {0} is valid: nothing uploaded
     struct gl_buffer records;
     uint32_t shift;
-    uint32_t combinations; // that the buffer holds
+    uint64_t version; // of the table, discovery_version
 };
 
 // Brings the buffer in line with the table. False when there is no room.
