@@ -59,26 +59,6 @@ static void worker_delete(void *worker)
     free(t);
 }
 
-// The latest leaf of the file that is added, not subtracted, around the start of a ray.
-static uint32_t leaf_around_start(struct tile *t, int ray)
-{
-    uint32_t found = SURFACE_NONE;
-    for (uint32_t i = 0; i < t->leaf_count; i++) {
-        struct tile_leaf *l = &t->leaves[i];
-        if (t->frame->body->leaves[l->leaf].subtracted || l->near > t->frame->start)
-            continue;
-        const struct block_leaf *b = tile_crossings(t, l);
-        bool around =
-            b &&
-            (b->mesh ? b->first[ray] < b->first[ray + 1] &&
-                           t->mesh.intervals[b->interval + b->first[ray]].enter <= t->frame->start
-                     : b->enter[ray] <= t->frame->start && b->leave[ray] > t->frame->start);
-        if (around && (found == SURFACE_NONE || l->leaf > found))
-            found = l->leaf;
-    }
-    return found;
-}
-
 // Faces of all rays that show the crossing `owner`.
 static void find_faces(struct tile *t, const struct rays_at *s, int32_t owner, v8i *face)
 {
@@ -130,11 +110,6 @@ static void write_block(struct tile *t, const struct rays_at *s, struct surface_
         if (done >> i & 1)
             continue;
         int32_t owner = s->owner[i / BLOCK][i % BLOCK];
-        if (owner < 0) {
-            leaf[i / BLOCK][i % BLOCK] = (int32_t)leaf_around_start(t, i);
-            done |= (uint64_t)1 << i;
-            continue;
-        }
         v8i number = v8_seti((int32_t)t->leaves[owner >> 1].leaf);
         for (int y = 0; y < BLOCK; y++) {
             v8i same = s->owner[y] == v8_seti(owner);

@@ -159,8 +159,8 @@ static void forget_planes(struct tile *t)
 enum { REGION_PLANES = 8 }; // six and padding
 
 // The borders of the leaf's region of interest that cut the leaf, in its coordinates; returns their
-// number.
-static uint32_t region_planes(const struct leaf *leaf, const struct box *roi,
+// number. A margin keeps the faces of leaves that only touch their region.
+static uint32_t region_planes(const struct leaf *leaf, const struct box *roi, double margin,
                               double planes[4][REGION_PLANES])
 {
     const double(*m)[4] = leaf->to_world.m;
@@ -172,7 +172,8 @@ static uint32_t region_planes(const struct leaf *leaf, const struct box *roi,
     for (int side = 0; side < 6; side++) {
         int axis = side / 2;
         double sign = side & 1 ? 1 : -1, size = box_high[axis] - box_low[axis];
-        double inside = side & 1 ? box_high[axis] - high[axis] : low[axis] - box_low[axis];
+        double inside =
+            (side & 1 ? box_high[axis] - high[axis] : low[axis] - box_low[axis]) - margin;
         struct vec3 row = {m[axis][0], m[axis][1], m[axis][2]};
         double scale = sign / vec3_length(row);
         if (!(inside > 1e-6 * size) || !isfinite(scale))
@@ -180,7 +181,8 @@ static uint32_t region_planes(const struct leaf *leaf, const struct box *roi,
         planes[0][n] = row.x * scale;
         planes[1][n] = row.y * scale;
         planes[2][n] = row.z * scale;
-        planes[3][n++] = ((side & 1 ? high[axis] : low[axis]) - m[axis][3]) * scale;
+        double border = side & 1 ? high[axis] + margin : low[axis] - margin;
+        planes[3][n++] = (border - m[axis][3]) * scale;
     }
     for (uint32_t i = n; i < REGION_PLANES; i++)
         for (int k = 0; k < 4; k++)
@@ -196,7 +198,8 @@ static uint32_t add_region(struct tile *t, const struct tile_leaf *l, const stru
     double planes[4][REGION_PLANES];
     if (!t->frame->clip || !body->roi)
         return p->count;
-    uint32_t n = region_planes(&body->leaves[l->leaf], &body->roi[l->leaf], planes);
+    double margin = 16 * t->frame->settings->epsilon;
+    uint32_t n = region_planes(&body->leaves[l->leaf], &body->roi[l->leaf], margin, planes);
     if (!n)
         return p->count;
     struct planes region = {.nx = planes[0],

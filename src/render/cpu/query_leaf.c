@@ -5,16 +5,6 @@
 
 #include <string.h>
 
-// ---------------------------------------------------------------- surfaces at one place
-
-// The file's order decides between surfaces at one place.
-static bool later(const struct query *q, int32_t owner, int32_t than)
-{
-    if (owner < 0 || than < 0)
-        return owner >= 0;
-    return q->t->leaves[owner >> 1].leaf > q->t->leaves[than >> 1].leaf;
-}
-
 static float steep_of(struct query *q, int32_t owner, int ray, float key)
 {
     float steep = 1; // of the plane where the ray begins
@@ -23,8 +13,10 @@ static float steep_of(struct query *q, int32_t owner, int ray, float key)
     return steep;
 }
 
-bool query_is_thin(struct query *q, int ray, float a, int32_t owner_a, float b, int32_t owner_b,
-                   float band)
+// Is the interval between key `a` at the face of `owner_a` and key `b` at that of `owner_b` too
+// thin to exist? Not where it is longer than `band`.
+static bool is_thin(struct query *q, int ray, float a, int32_t owner_a, float b, int32_t owner_b,
+                    float band)
 {
     if (b - a > band)
         return false;
@@ -34,113 +26,101 @@ bool query_is_thin(struct query *q, int ray, float a, int32_t owner_a, float b, 
     return tile_thickness(q->t, a, b, steep) < q->t->frame->settings->epsilon;
 }
 
-static struct face_at face_of(const struct query *q, int32_t owner, float key)
+static void note_tie(struct query *q, int ray, struct query_tie tie)
 {
-    return (struct face_at){&q->t->leaves[owner >> 1], owner & 1, key};
-}
-
-// Of geometry, which of two faces in one plane shows depends on all that meet there: such rays are
-// walked in the end.
-static void note_mixed(struct query *q, int ray, int32_t a, float key_a, int32_t b, float key_b)
-{
-    const struct body *body = q->t->frame->body;
-    if (!body->borders || a < 0 || b < 0)
+    enum { TIES_MOST = 1 << 14 };
+    uint64_t bit = (uint64_t)1 << ray;
+    q->tied |= bit;
+    if (q->tie_count == TIES_MOST) {
+        q->crowded |= bit;
         return;
-    const struct leaf *one = &body->leaves[q->t->leaves[a >> 1].leaf];
-    if (one->subtracted != body->leaves[q->t->leaves[b >> 1].leaf].subtracted &&
-        (key_a == key_b || tile_coplanar(q->t, ray, face_of(q, a, key_a), face_of(q, b, key_b))))
-        q->mixed |= (uint64_t)1 << ray;
+    }
+    tie.ray = ray;
+    array_reserve(&q->ties, &q->tie_capacity, q->tie_count + 1);
+    q->ties[q->tie_count++] = tie;
 }
 
-// Of two surfaces within epsilon the expression shows that of `owner`. Is it the other one that is
-// seen, because both lie in one plane and it is the later one? Faces of different planes that meet
-// there do not hide each other: else the side of a solid would show in its neighbour's flat face.
-static bool covers(const struct query *q, int ray, int32_t other, float other_key, int32_t owner,
-                   float key)
+// Notes two crossings if they are at one place. Of those closer than `band` the filter decides.
+static void note_pair(struct query *q, int ray, enum tie_kind kind, struct crossed a,
+                      struct crossed b, float band)
 {
-    if (!later(q, other, owner))
-        return false;
-    return owner < 0 || other_key == key ||
-           tile_coplanar(q->t, ray, face_of(q, other, other_key), face_of(q, owner, key));
+    if (b.key < a.key || (b.key == a.key && b.owner < a.owner)) {
+        struct crossed swap = a;
+        a = b;
+        b = swap;
+    }
+    if (a.owner >= 0 && b.owner >= 0 && b.key - a.key <= band &&
+        is_thin(q, ray, a.key, a.owner, b.key, b.owner, band))
+        note_tie(q, ray, (struct query_tie){.kind = kind, .first = a, .last = b});
+}
+
+// Whose surface is anywhere between two keys is more than a pair can tell.
+static void note_crowd(struct query *q, int ray, float from, float to)
+{
+    note_tie(q, ray, (struct query_tie){.kind = TIE_CROWD, .first = {from, -1}, .last = {to, -1}});
 }
 
 void query_nearer(struct query *q, struct rays_at *s, const struct rays_at *other)
 {
-    v8f epsilon = v8_set(q->t->frame->epsilon);
+    v8f reach = v8_set(q->reach), never = v8_set(NEVER);
     for (int y = 0; y < BLOCK; y++) {
         v8f a = s->key[y], b = other->key[y];
-        v8i b_first = b < a;
-        int tie = v8_bits((v8_abs(a - b) <= epsilon) & (b < v8_set(NEVER)));
-        v8i owner = v8_selecti(b_first, other->owner[y], s->owner[y]);
-        for (; tie; tie &= tie - 1) {
-            int x = __builtin_ctz((unsigned)tie);
-            int32_t front = owner[x], back = b_first[x] ? s->owner[y][x] : other->owner[y][x];
-            note_mixed(q, y * BLOCK + x, front, fminf(a[x], b[x]), back, fmaxf(a[x], b[x]));
-            if (covers(q, y * BLOCK + x, back, fmaxf(a[x], b[x]), front, fminf(a[x], b[x])))
-                owner[x] = back;
+        int near = v8_bits((v8_abs(a - b) <= reach) & (a < never) & (b < never));
+        for (; near; near &= near - 1) {
+            int x = __builtin_ctz((unsigned)near), ray = y * BLOCK + x;
+            struct crossed one = {a[x], s->owner[y][x]}, two = {b[x], other->owner[y][x]};
+            if (one.owner < 0 || two.owner < 0)
+                continue;
+            if (one.owner != two.owner)
+                note_pair(
+                    q, ray, TIE_EITHER, one, two,
+                    fminf(q->t->leaves[one.owner >> 1].band, q->t->leaves[two.owner >> 1].band));
+            else if (q->tied >> ray & 1) // what begins in one of them here may not matter
+                note_tie(q, ray, (struct query_tie){.kind = TIE_EITHER, .first = one, .last = two});
         }
         s->key[y] = v8_min(b, a);
-        s->owner[y] = owner;
+        s->owner[y] = v8_selecti(b < a, other->owner[y], s->owner[y]);
     }
 }
 
 // ---------------------------------------------------------------- one ray
 
-static void note_sliver(struct query *q, int ray, float end)
-{
-    if (!q->slivers)
-        for (int i = 0; i < BLOCK_PIXELS; i++)
-            q->sliver[i] = NEVER;
-    q->slivers = true;
-    q->sliver[ray] = fminf(q->sliver[ray], end);
-}
-
 // One ray moves to where it is next inside the leaf, with the filter.
-static void ray_in(struct query *q, int ray, float band, int32_t id, float *key, int32_t *owner)
+static void ray_in(struct query *q, int ray, float band, int32_t id, struct crossed *at)
 {
-    float c = *key;
+    float c = at->key, epsilon = q->t->frame->epsilon;
     for (uint32_t i = 0; i < q->lane_count; i++) {
         float e = q->lane[i].enter, x = q->lane[i].leave;
-        if (!(x > c))
-            continue;
-        if (query_is_thin(q, ray, e > c ? e : c, e > c ? id : *owner, x, id | 1, band)) {
-            if (e > c)
-                note_sliver(q, ray, x);
+        if (!(x > c)) {
+            if (c - x <= band && i + 1 < q->lane_count) // of a mesh that touches itself
+                note_crowd(q, ray, x, c);
             continue;
         }
-        if (fabsf(e - c) <= band)
-            note_mixed(q, ray, id, e, *owner, c);
-        if (e > c) {
-            if (!(e - c <= band && *owner >= 0 && covers(q, ray, *owner, c, id, e) &&
-                  query_is_thin(q, ray, c, *owner, e, id, band)))
-                *owner = id;
-            *key = e;
-        } else if (c - e <= band && *owner >= 0 && covers(q, ray, id, e, *owner, c) &&
-                   query_is_thin(q, ray, e, id, c, *owner, band)) {
-            *owner = id;
+        if (is_thin(q, ray, e > c ? e : c, e > c ? id : at->owner, x, id | 1, band)) {
+            if (e > c) // past its edge one may see where two leaves touch
+                note_crowd(q, ray, x - epsilon, x + epsilon);
+            else
+                note_crowd(q, ray, c, x);
+            continue;
         }
+        if (id != at->owner)
+            note_pair(q, ray, TIE_BOTH, *at, (struct crossed){e, id}, band);
+        if (e > c)
+            *at = (struct crossed){e, id};
         return;
     }
-    *key = NEVER;
+    at->key = NEVER;
 }
 
 // One ray moves to where it is next outside of the leaf.
-static void ray_out(struct query *q, int ray, float band, int32_t id, float *key, int32_t *owner)
+static void ray_out(struct query *q, int ray, float band, int32_t id, struct crossed *at)
 {
     for (uint32_t i = 0; i < q->lane_count; i++) {
-        float e = q->lane[i].enter, x = q->lane[i].leave, c = *key;
-        if (fabsf(x - c) <= band)
-            note_mixed(q, ray, id | 1, x, *owner, c);
-        if (x > c && (e <= c || query_is_thin(q, ray, c, *owner, e, id, band))) {
-            bool same = x - c <= band && *owner >= 0 && covers(q, ray, *owner, c, id | 1, x) &&
-                        query_is_thin(q, ray, c, *owner, x, id | 1, band);
-            *key = x;
-            *owner = same ? *owner : (id | 1);
-        } else if (x <= c && c - x <= band && *owner >= 0 && (*owner & 1) &&
-                   covers(q, ray, id | 1, x, *owner, c) &&
-                   query_is_thin(q, ray, x, id | 1, c, *owner, band)) {
-            *owner = id | 1;
-        }
+        float e = q->lane[i].enter, x = q->lane[i].leave, c = at->key;
+        if ((id | 1) != at->owner)
+            note_pair(q, ray, TIE_BOTH, *at, (struct crossed){x, id | 1}, band);
+        if (x > c && (e <= c || is_thin(q, ray, c, at->owner, e, id, band)))
+            *at = (struct crossed){x, id | 1};
     }
 }
 
@@ -177,14 +157,13 @@ static void move_rays(struct query *q, const struct block_leaf *b, int32_t id, b
     }
     for (; rays; rays &= rays - 1) {
         int i = __builtin_ctzll(rays), y = i / BLOCK, x = i % BLOCK;
-        float key = from->key[y][x];
-        int32_t owner = from->owner[y][x];
+        struct crossed at = {from->key[y][x], from->owner[y][x]};
         q->lane = mesh ? q->copy + first[i] : &ends[i];
         q->lane_count = mesh ? first[i + 1] - first[i] : 1;
-        if (key < NEVER)
-            (out ? ray_out : ray_in)(q, i, band, id, &key, &owner);
-        s->key[y][x] = key;
-        s->owner[y][x] = owner;
+        if (at.key < NEVER)
+            (out ? ray_out : ray_in)(q, i, band, id, &at);
+        s->key[y][x] = at.key;
+        s->owner[y][x] = at.owner;
     }
 }
 
@@ -194,6 +173,7 @@ bool query_leaf_in(struct query *q, uint32_t index, struct rays_at *s)
     int32_t id = (int32_t)(index << 1);
     if (!b)
         return rays_kill(s);
+    q->reach = fmaxf(q->reach, b->band);
     struct rays_at moved;
     uint64_t close = UINT64_MAX;
     if (!b->mesh) {
@@ -223,6 +203,7 @@ bool query_leaf_out(struct query *q, uint32_t index, float high, struct rays_at 
     int32_t id = (int32_t)(index << 1);
     if (!b || b->near - b->band > high)
         return false;
+    q->reach = fmaxf(q->reach, b->band);
     struct rays_at moved;
     uint64_t close = UINT64_MAX;
     if (!b->mesh) {

@@ -5,20 +5,14 @@
 #define query_leaf_in  ISA_PASTE(query_leaf_in, ISA)
 #define query_leaf_out ISA_PASTE(query_leaf_out, ISA)
 #define query_nearer   ISA_PASTE(query_nearer, ISA)
-#define query_is_thin  ISA_PASTE(query_is_thin, ISA)
 
 // Moves each ray to where it is next inside a leaf of the tile, or next outside of it. False when
 // none moved. Nothing is done for a leaf that begins beyond `high`, where no ray is.
 bool query_leaf_in(struct query *q, uint32_t index, struct rays_at *s);
 bool query_leaf_out(struct query *q, uint32_t index, float high, struct rays_at *s);
 
-// s = the nearer of s and other, ray by ray; of two in one place one may cover the other.
+// s = the nearer of s and other, ray by ray.
 void query_nearer(struct query *q, struct rays_at *s, const struct rays_at *other);
-
-// Is the interval between key `a` at the face of `owner_a` and key `b` at that of `owner_b` too
-// thin to exist? Not where it is longer than `band`.
-bool query_is_thin(struct query *q, int ray, float a, int32_t owner_a, float b, int32_t owner_b,
-                   float band);
 
 // Of the rays that still have something ahead.
 static inline float rays_highest(const struct rays_at *s)

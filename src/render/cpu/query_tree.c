@@ -23,7 +23,8 @@ size_t query_bytes(const struct query *q)
     return q->node_capacity * sizeof *q->nodes + q->link_capacity * sizeof *q->links +
            (q->kid_capacity + q->found_capacity) * sizeof *q->kids +
            q->rect_capacity * sizeof *q->kid_rects + q->copy_capacity * sizeof *q->copy +
-           q->part_capacity * sizeof *q->parts + q->t->room.nodes * sizeof *q->node_of;
+           q->tie_capacity * sizeof *q->ties + q->part_capacity * sizeof *q->parts +
+           q->t->room.nodes * sizeof *q->node_of;
 }
 
 void query_delete(struct query *q)
@@ -36,6 +37,7 @@ void query_delete(struct query *q)
     free(q->kid_rects);
     free(q->found);
     free(q->copy);
+    free(q->ties);
     free(q->parts);
     free(q->node_of);
     free(q);

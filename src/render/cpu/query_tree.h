@@ -35,6 +35,24 @@ struct query_part {
     bool query;
 };
 
+// A crossing that a ray met; the owner as in struct rays_at.
+struct crossed {
+    float key;
+    int32_t owner;
+};
+
+// Crossings at one place. Should the surface of the ray be there, whose is it?
+enum tie_kind {
+    TIE_EITHER, // the first makes it, and the last would alone
+    TIE_BOTH,   // it takes both
+    TIE_CROWD,  // depends on all that meet there
+};
+struct query_tie {
+    int ray;
+    enum tie_kind kind;
+    struct crossed first, last;
+};
+
 struct query {
     struct tile *t;
     struct query_node *nodes;
@@ -54,10 +72,12 @@ struct query {
     uint32_t lane_count;
     struct mesh_interval *copy; // of a mesh in the block
     uint32_t copy_capacity;
-    bool slivers;               // some ray of the block met a leaf too thin to exist
-    float sliver[BLOCK_PIXELS]; // and the first of these ended here
-    uint64_t mixed;             // rays that met a cut face and another one at one place, a bit each
-    v8f limit[BLOCK];           // nothing beyond these keys matters
+    struct query_tie *ties; // of the block
+    uint32_t tie_count, tie_capacity;
+    uint64_t tied;    // rays that have any, a bit each
+    uint64_t crowded; // rays that had more than there is room for
+    float reach;      // the largest band of the leaves that were asked in the block
+    v8f limit[BLOCK]; // nothing beyond these keys matters
 };
 
 static inline struct extent extent_of(const struct query *q, uint32_t ref)

@@ -278,12 +278,15 @@ void walk_first(struct tile *t, uint32_t first_leaf, uint32_t count, struct rays
         walk_rays(t, leaves, p, p + group, counts, out, NULL);
 }
 
-void walk_one(struct tile *t, int ray, struct rays_at *out)
+void walk_some(struct tile *t, uint64_t rays, struct rays_at *out)
 {
     uint32_t counts[BLOCK_PIXELS];
     struct leaf_range leaves = {0, t->leaf_count};
     crossings_count(t, leaves, counts);
-    walk_rays(t, leaves, ray, ray + 1, counts, out, NULL);
+    for (; rays; rays &= rays - 1) {
+        int ray = __builtin_ctzll(rays);
+        walk_rays(t, leaves, ray, ray + 1, counts, out, NULL);
+    }
 }
 
 void walk_block(struct tile *t,

@@ -12,7 +12,7 @@ struct rays_at;
 struct walk_lists;
 
 #define walk_first  ISA_PASTE(walk_first, ISA)
-#define walk_one    ISA_PASTE(walk_one, ISA)
+#define walk_some   ISA_PASTE(walk_some, ISA)
 #define walk_new    ISA_PASTE(walk_new, ISA)
 #define walk_bytes  ISA_PASTE(walk_bytes, ISA)
 #define walk_delete ISA_PASTE(walk_delete, ISA)
@@ -25,8 +25,8 @@ void walk_delete(struct walk_lists *w);
 // First solid key of every ray of the block, with only the given leaves of the tile.
 void walk_first(struct tile *t, uint32_t first_leaf, uint32_t count, struct rays_at *out);
 
-// The same for one ray and all leaves of the tile.
-void walk_one(struct tile *t, int ray, struct rays_at *out);
+// The same for some rays, a bit each, and all leaves of the tile.
+void walk_some(struct tile *t, uint64_t rays, struct rays_at *out);
 
 // All solid intervals of the rays of the block that lie in the picture, given to the sink.
 void walk_block(struct tile *t,
