@@ -43,7 +43,8 @@ bool has_region(uint leaf)
     return frame.borders == 0 && leaves[leaf].flags >= LEAF_REGION;
 }
 
-// Keys of the ray where it enters and leaves the sides of the leaf's region that cut the leaf.
+// Keys of the ray where it enters and leaves the sides of the leaf's region that cut the leaf. A
+// margin keeps the faces of leaves that only touch their region.
 vec2 region_of(uint leaf, ivec2 pixel)
 {
     vec2 keys = vec2(-3.4e38, 3.4e38);
@@ -56,8 +57,9 @@ vec2 region_of(uint leaf, ivec2 pixel)
             continue;
         uint axis = side / 2;
         bool high = (side & 1) != 0;
-        double to = (high ? leaves[leaf].roi_high[axis] : leaves[leaf].roi_low[axis]) -
-                    origin[axis];
+        double border = high ? leaves[leaf].roi_high[axis] + frame.margin :
+                               leaves[leaf].roi_low[axis] - frame.margin;
+        double to = border - origin[axis];
         double d = direction[axis], depth = to / d;
         bool along = abs(d) < 1e-13, behind = !parallel && !(depth > 0);
         if (along || behind) { // no crossing: all of the ray is on one side

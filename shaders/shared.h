@@ -68,7 +68,7 @@ struct frame_data {
     double axis[3];                                     // unit, into the picture
     double dual_x[3], dual_y[3]; // of a point relative to the eye: pixel times depth
     double t0, clip, near, far;
-    double epsilon;
+    double epsilon, margin; // of the filter; of regions of interest
     float start, end; // keys of near and far
     float to_depth, shift; // depth - reference = key / (1 - key * to_depth) + shift
     int width, height;

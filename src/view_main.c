@@ -19,7 +19,7 @@ static struct {
     double epsilon;
     struct option_list import_folders;
     bool stats, no_watch;
-} given = {.size = {1024, 768}, .epsilon = -1, .megabytes = 256, .device = "auto"};
+} given = {.size = {1024, 768}, .epsilon = -1, .megabytes = 256, .device = "cpu"};
 
 static const struct option options[] = {
     {"camera", 0, OPTION_TEXT, "NUMBERS", "x,y,z,rx,ry,rz,distance or eye and centre x,y,z,x,y,z",
@@ -31,7 +31,8 @@ static const struct option options[] = {
     {"size", 0, OPTION_SIZE, "W,H", "of the window in pixels, 1024,768 if not given", given.size,
      64, 16384},
     {"device", 0, OPTION_TEXT, "auto|cpu|gl",
-     "what draws: the processor, or OpenGL, by default\nwhere there is a graphics processor for it",
+     "what draws: the processor (default), OpenGL, or OpenGL\nwhere there is a graphics processor "
+     "for it",
      &given.device, 0, 0},
     {"threads", 0, OPTION_COUNT, "N", "for drawing, one per processor if not given", &given.threads,
      0, 256},

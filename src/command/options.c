@@ -16,7 +16,7 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
                           .size = {512, 512},
                           .scheme = "Cornfield",
                           .transparency = "file",
-                          .device = "auto",
+                          .device = "cpu",
                           .epsilon = -1,
                           .megabytes = 256,
                           .samples = 1};
@@ -124,8 +124,8 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
          "(default), or the far ones first, whatever their order",
          &out->transparency, 0, 0},
         {"device", 0, OPTION_TEXT, "auto|cpu|gl",
-         "what draws: the processor, or OpenGL, by default where there is\na graphics processor "
-         "for it",
+         "what draws: the processor (default), OpenGL, or OpenGL where\nthere is a graphics "
+         "processor for it",
          &out->device, 0, 0},
         {"threads", 0, OPTION_COUNT, "N", "threads to draw with; 0: one per processor (default)",
          &out->threads, 0, 256},

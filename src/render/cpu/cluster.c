@@ -9,13 +9,14 @@
 
 size_t cluster_room_bytes(const struct cluster_room *room)
 {
-    return room->rest_capacity * sizeof *room->rest + room->border_capacity + room->kept_capacity +
-           room->turn_capacity * sizeof *room->turns;
+    return (room->rest_capacity + room->ordered_capacity) * sizeof *room->rest +
+           room->border_capacity + room->kept_capacity + room->turn_capacity * sizeof *room->turns;
 }
 
 void cluster_room_free(struct cluster_room *room)
 {
     free(room->rest);
+    free(room->ordered);
     free(room->border);
     free(room->kept);
     free(room->turns);
@@ -31,6 +32,37 @@ static bool enters(crossing c)
 static struct tile_leaf *leaf_of(const struct cluster *c, crossing i)
 {
     return &c->behind->t->leaves[(uint32_t)i >> 1];
+}
+
+// At one key the leaves stand as in the file.
+static bool stands_before(const struct cluster *c, crossing a, crossing b)
+{
+    uint32_t first = leaf_of(c, a)->leaf, second = leaf_of(c, b)->leaf;
+    if (crossing_key(a) != crossing_key(b))
+        return a < b;
+    return first != second ? first < second : enters(a) && !enters(b);
+}
+
+// The crossings up to the end of the cluster, those of one key in the order of the file: lists are
+// in the order in which the tile has its leaves, which depends on the view.
+static const crossing *order_ties(const struct cluster *c)
+{
+    struct cluster_room *room = c->room;
+    uint32_t i = c->from + 1;
+    while (i < c->to && !stands_before(c, c->items[i], c->items[i - 1]))
+        i++;
+    if (i == c->to)
+        return c->items;
+    array_reserve(&room->ordered, &room->ordered_capacity, c->to);
+    memcpy(room->ordered, c->items, c->to * sizeof *room->ordered);
+    for (; i < c->to; i++) {
+        crossing one = room->ordered[i];
+        uint32_t k = i;
+        for (; k > c->from && stands_before(c, one, room->ordered[k - 1]); k--)
+            room->ordered[k] = room->ordered[k - 1];
+        room->ordered[k] = one;
+    }
+    return room->ordered;
 }
 
 // Begins `rest` with the crossings in front of the cluster.
@@ -181,10 +213,8 @@ static bool in_one_plane(const struct cluster *c, crossing a, crossing b)
 // matters, because the state would be another one without it, or with it alone. A leaf too thin to
 // show gives way to any of these. Of geometry it is a cut face where the place is not solid with
 // all borders.
-crossing cluster_owner(const struct cluster *c, bool solid)
+static crossing owner_of(const struct cluster *c, bool solid)
 {
-    if (c->to - c->from == 1)
-        return c->items[c->from];
     find_borders(c);
     uint32_t turning = turning_point(c, solid);
     if (turning == c->to)
@@ -204,4 +234,13 @@ crossing cluster_owner(const struct cluster *c, bool solid)
         weak = false;
     }
     return best;
+}
+
+crossing cluster_owner(const struct cluster *c, bool solid)
+{
+    if (c->to - c->from == 1)
+        return c->items[c->from];
+    struct cluster ordered = *c;
+    ordered.items = order_ties(c);
+    return owner_of(&ordered, solid);
 }

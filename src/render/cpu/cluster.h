@@ -8,8 +8,9 @@
 
 // Room to work in, kept from cluster to cluster.
 struct cluster_room {
-    crossing *rest; // a list without some crossings
-    uint32_t rest_capacity;
+    crossing *rest;    // a list without some crossings
+    crossing *ordered; // one in another order
+    uint32_t rest_capacity, ordered_capacity;
     bool *border, *kept; // per crossing of the cluster
     uint32_t border_capacity, kept_capacity;
     uint32_t *turns; // crossings of the cluster that turn the state

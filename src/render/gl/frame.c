@@ -39,6 +39,7 @@ void gl_frame_init(struct frame_data *f, const struct body *body, const struct r
                              .near = rays->near,
                              .far = rays->far,
                              .epsilon = settings->epsilon,
+                             .margin = 16 * settings->epsilon,
                              .borders = body->borders,
                              .leaf_count = body->leaf_count,
                              .slab_first = 1,
