@@ -3,10 +3,12 @@
 // Algorithms 1 and 3 of Zanni, Claux, Lefebvre 2018, with the filter and the rule of owners of
 // src/render/cpu/walk.c: the same picture, crossing by crossing. Built with SPANS all solid
 // intervals are written, else the first surface. A ray that meets an unknown combination puts it on
-// record, goes on to record what follows, and is walked again when the table knows more.
+// record, goes on to record what follows, and is walked again when the table knows more. Built with
+// ARRAY no combination is unknown (array.glsl).
 #include "frame.glsl"
 #include "exact.glsl"
 #include "table.glsl"
+#include "array.glsl"
 
 layout(local_size_x = GROUP_SIZE) in;
 #include "thread.glsl"
@@ -189,6 +191,23 @@ void record(uvec2 key, int subset, uint c)
             misses[start++] = at(i).leaf;
 }
 
+#ifdef ARRAY
+// Crossings of the cluster come or, by -1, go.
+void count_subset(int subset, uint c, int by)
+{
+    for (uint i = from; i < to; i++)
+        if (in_subset(subset, i, c))
+            count_leaf(at(i).leaf >> 1, uint((at(i).leaf & FRAGMENT_LEAVES) != 0 ? -by : by));
+}
+
+bool is_solid(uvec2 key, int subset, uint c)
+{
+    count_subset(subset, c, 1);
+    bool state = evaluate();
+    count_subset(subset, c, -1);
+    return state;
+}
+#else
 bool is_solid(uvec2 key, int subset, uint c)
 {
     uint state = table_lookup(key);
@@ -198,6 +217,7 @@ bool is_solid(uvec2 key, int subset, uint c)
     }
     return state == SET_SOLID;
 }
+#endif
 
 uvec2 sum_of(int subset, uint c)
 {
@@ -450,6 +470,10 @@ bool ends_thin(uvec2 key)
 bool walk(uvec2 key)
 {
     uint ahead = 0, i = 0;
+#ifdef ARRAY
+    for (int k = 0; k < inside.length(); k++)
+        inside[k] = 0;
+#endif
     from = 0;
     before = key;
     for (; i < size && ahead < AHEAD; i++) {
@@ -460,6 +484,9 @@ bool walk(uvec2 key)
             if (!unknown && now != solid && change(now))
                 return true;
             ahead += uint(unknown);
+#ifdef ARRAY
+            count_subset(SUBSET_ALL, 0, 1);
+#endif
             from = i;
             before = key;
         }

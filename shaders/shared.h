@@ -20,6 +20,7 @@
 #define BIND_COUNTS    9  // uint, per pixel of the band
 #define BIND_FRAGMENTS 10 // struct fragment
 #define BIND_TABLE     11 // uint[2]: the records of hcsg/table.h
+#define BIND_NODES     11 // uint: the expression, for the array method, which needs no table
 #define BIND_STATES    12 // struct pixel_state, per pixel of the band
 #define BIND_COUNTERS  13 // struct counters
 #define BIND_OFFSETS   14 // uint, per pixel of the band and one more: its first fragment
@@ -59,6 +60,13 @@
 #define FRAGMENT_TURN     0x80000000u // turns the state of its cluster
 #define FRAGMENT_BORDER   0x40000000u // no surface, but where the leaf meets its region's border
 #define FRAGMENT_TRIANGLE 0x3fffffffu
+
+// Nodes of the expression, for the array method: 2^2 times the parent, and what a node does to it.
+#define NODE_ADDS   0u
+#define NODE_LIMITS 1u
+#define NODE_CUTS   2u
+#define NODE_ROOT   3u
+#define NODE_INNER  0xffffffffu // in place of a leaf
 
 #define SURFACE_NO_LEAF  0xffffffffu
 #define SURFACE_CAP_FACE 0xffffffffu

@@ -1,14 +1,17 @@
 // table.glsl - looks combinations up in the table of src/hcsg/table.h.
+#ifndef ARRAY // has the place for something else
 layout(std430, binding = BIND_TABLE) readonly restrict buffer table_buffer
 {
     uvec2 records[];
 };
+#endif
 
 #define SET_EMPTY   0u
 #define SET_SOLID   1u
 #define SET_UNKNOWN 2u
 #define SECONDARY   0x007fffffu // of the high word of a key
 
+#ifndef ARRAY
 uint table_lookup(uvec2 key)
 {
     key.y &= SECONDARY;
@@ -27,3 +30,4 @@ uint table_lookup(uvec2 key)
         record = records[h >> frame.table_shift];
     }
 }
+#endif

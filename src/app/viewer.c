@@ -127,6 +127,15 @@ static void ask(struct viewer *v, bool refined)
     drawing_ask(v->drawing, &job);
 }
 
+static void print_passes(const struct render_stats *stats)
+{
+    for (int i = 0; i < RENDER_PASSES && stats->passes[i].name; i++)
+        printf("%s %s %.2f", i ? "," : "passes, ms:", stats->passes[i].name,
+               1e3 * stats->passes[i].seconds);
+    if (stats->passes[0].name)
+        printf("\n");
+}
+
 static void print_stats(struct viewer *v, double shown)
 {
     const struct shot *s = &v->shown;
@@ -138,6 +147,7 @@ static void print_stats(struct viewer *v, double shown)
         printf(", walked %llu surfaces, %llu combinations new",
                (unsigned long long)s->stats.fragments, (unsigned long long)s->stats.misses);
     printf("\n");
+    print_passes(&s->stats);
     if (s->job.loaded->number != v->reported)
         printf("load %u: %.1f ms to shown (wait %.1f, parse %.1f, model %.1f, draw %.1f, "
                "show %.1f), %u leaves\n",

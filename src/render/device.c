@@ -1,6 +1,33 @@
 // device.c - the functions of a device, whichever kind it is, and what happens when one fails.
 #include "render/device.h"
 
+#include <string.h>
+
+void render_stats_pass(struct render_stats *stats, const struct render_pass *pass)
+{
+    struct render_pass *p = stats->passes, *end = stats->passes + RENDER_PASSES;
+    while (p < end && p->name && strcmp(p->name, pass->name))
+        p++;
+    if (p == end)
+        return;
+    p->name = pass->name;
+    p->seconds += pass->seconds;
+    p->count += pass->count;
+}
+
+void render_stats_add(struct render_stats *sum, const struct render_stats *one)
+{
+    sum->seconds_setup += one->seconds_setup;
+    sum->seconds_draw += one->seconds_draw;
+    sum->fragments += one->fragments;
+    sum->misses += one->misses;
+    sum->open_rays += one->open_rays;
+    if (one->peak_bytes > sum->peak_bytes)
+        sum->peak_bytes = one->peak_bytes;
+    for (int i = 0; i < RENDER_PASSES && one->passes[i].name; i++)
+        render_stats_pass(sum, &one->passes[i]);
+}
+
 void device_delete(struct device *d)
 {
     if (!d)

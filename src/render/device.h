@@ -53,23 +53,25 @@ struct render_settings {
     const atomic_bool *cancelled; // once true, the frame ends early and means nothing; NULL: never
 };
 
+// What the time of a frame went into.
+struct render_pass {
+    const char *name; // static; NULL: no more passes
+    double seconds;   // of the graphics processor, but for "discover"
+    uint64_t count;   // how often it was taken
+};
+enum { RENDER_PASSES = 12 };
+
 struct render_stats {
     double seconds_setup, seconds_draw;
     uint64_t fragments; // crossings made
     uint64_t misses;    // combinations evaluated during the frame
     uint64_t open_rays; // rays on which a mesh did not close
     size_t peak_bytes;  // beyond model and outputs
+    struct render_pass passes[RENDER_PASSES]; // of devices that have them
 };
-static inline void render_stats_add(struct render_stats *sum, const struct render_stats *one)
-{
-    sum->seconds_setup += one->seconds_setup;
-    sum->seconds_draw += one->seconds_draw;
-    sum->fragments += one->fragments;
-    sum->misses += one->misses;
-    sum->open_rays += one->open_rays;
-    if (one->peak_bytes > sum->peak_bytes)
-        sum->peak_bytes = one->peak_bytes;
-}
+void render_stats_add(struct render_stats *sum, const struct render_stats *one);
+// Adds to the pass of that name, for devices.
+void render_stats_pass(struct render_stats *stats, const struct render_pass *pass);
 
 // The device on the processor: any number of threads, bit-identical results.
 struct device;

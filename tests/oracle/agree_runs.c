@@ -58,7 +58,7 @@ static void compare(struct agreement *out, struct device *first, struct device *
     settings.memory = options->memory;
     settings.walk = options->walk;
     picture_render(&a, first, side->body, &side->rays, &settings);
-    settings.walk = WALK_HASH;
+    settings.walk = options->array ? WALK_ARRAY : WALK_HASH;
     picture_render(&b, second, side->body, &side->rays, &settings);
     agree_compare(out, side->body, &side->rays, &a, &b, side->tolerance);
     if (explain) {

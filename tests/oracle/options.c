@@ -13,6 +13,10 @@ static int parse_option(struct options *o, int left, char **argv)
         o->walk = WALK_HASH;
         return 1;
     }
+    if (!strcmp(argv[0], "--array")) {
+        o->array = true;
+        return 1;
+    }
     if (!strcmp(argv[0], "--pixel") && left >= 3) {
         o->x = atoi(argv[1]);
         o->y = atoi(argv[2]);

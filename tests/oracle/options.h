@@ -12,7 +12,8 @@ struct options {
     bool one_pixel;
     int x, y;
     enum walk walk;
-    bool gl; // the device under test
+    bool gl;    // the device under test
+    bool array; // it walks by the array method
     size_t memory;
 };
 

@@ -7,6 +7,7 @@
 //   test_oracle agree random [--count N] ...                  two ways to draw, not the oracle
 //   test_oracle agree FILE.csg WIDTH HEIGHT ...
 // --device gl: of the device on the graphics processor. --hash: the one on the processor walks.
+// agree --array: the second way goes by the array method.
 #include "agree_runs.h"
 #include "base/mem.h"
 #include "base/parallel.h"

@@ -23,6 +23,7 @@ struct resident {
     uint64_t used;     // number of the picture that used it last
     struct gl_scene scene;
     struct gl_table table;
+    struct gl_array array; // once the bench has asked for it
 };
 
 struct gl_device {
@@ -46,6 +47,7 @@ struct drawing {
     struct resident *resident;
     struct frame_data frame;
     bool spans;
+    bool whole;      // the band is not cut in depth
     float near, far; // keys between which leaves lie
     size_t most;     // fragments that the budget has room for
     struct error *err;
@@ -81,10 +83,10 @@ static bool fill(struct drawing *g, float begin, bool *failed)
                 return false;
             continue;
         }
-        if (fragments <= g->most || (f->rows == 1 && g->spans))
+        if (fragments <= g->most || (f->rows == 1 && g->whole))
             break;
         float end = begin + (fminf(f->slab_end, g->far) - begin) / 2;
-        if (g->spans || !(end > begin && end < f->slab_end)) {
+        if (g->whole || !(end > begin && end < f->slab_end)) {
             if (f->rows > 1)
                 return false;
             break; // a row at one depth: less is not to be had
@@ -159,6 +161,7 @@ static void evict(struct resident *r)
 {
     gl_scene_free(&r->scene);
     gl_buffer_free(&r->table.records);
+    gl_buffer_free(&r->array.nodes);
     *r = (struct resident){0};
 }
 
@@ -179,7 +182,10 @@ static bool settle(struct drawing *g)
         oldest = r->used < oldest->used ? r : oldest;
     }
     evict(oldest);
-    if (!gl_scene_upload(&oldest->scene, &d->model, g->body, g->err)) {
+    gl_timer_begin(&d->work.timers, "upload");
+    bool there = gl_scene_upload(&oldest->scene, &d->model, g->body, g->err);
+    gl_timer_end(&d->work.timers);
+    if (!there) {
         evict(oldest);
         return false;
     }
@@ -187,6 +193,14 @@ static bool settle(struct drawing *g)
     oldest->used = d->pictures;
     g->resident = oldest;
     return true;
+}
+
+static bool choose_walk(struct drawing *g)
+{
+    struct gl_array *a = &g->resident->array;
+    bool by_array = g->settings->walk == WALK_ARRAY;
+    g->d->work.array = by_array ? a : NULL;
+    return !by_array || a->nodes.id || gl_array_upload(a, &g->d->model, g->body, g->err);
 }
 
 static bool begin(struct drawing *g)
@@ -197,7 +211,20 @@ static bool begin(struct drawing *g)
     gl_frame_init(&g->frame, g->body, g->rays, g->settings);
     if (!gl_frame_range(&g->frame, g->rays, g->body, &g->near, &g->far))
         g->near = g->far = g->frame.start;
-    return settle(g);
+    g->whole = g->spans || g->settings->walk == WALK_ARRAY; // counters are not carried on
+    return settle(g) && choose_walk(g);
+}
+
+// The times of the picture's passes, all of which have ended but for the last copies.
+static void tell_passes(struct drawing *g)
+{
+    struct gl_timers *t = &g->d->work.timers;
+    gl_timers_collect(t, true);
+    for (uint32_t i = 0; i < t->count; i++) {
+        const struct gl_pass *p = &t->passes[i];
+        render_stats_pass(g->stats, &(struct render_pass){p->name, p->seconds, p->count});
+    }
+    gl_timers_restart(t);
 }
 
 // Draws in the context.
@@ -213,6 +240,7 @@ static int run(struct drawing *g, bool (*take)(struct drawing *g, void *context)
         rows = draw(g, take, context);
         g->stats->seconds_draw = clock_seconds() - begun;
     }
+    tell_passes(g);
     g->stats->peak_bytes = g->d->memory.peak;
     gl_context_leave(g->d->context);
     return rows;

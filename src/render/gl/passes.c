@@ -1,6 +1,7 @@
 // passes.c - the passes of a band and slab.
 #include "render/gl/passes.h"
 
+#include "base/clock.h"
 #include "base/mem.h"
 
 #include <epoxy/gl.h>
@@ -21,6 +22,7 @@ void gl_work_free(struct gl_work *w)
     for (size_t i = 0; i < array_count(all); i++)
         gl_buffer_free(all[i]);
     gl_readback_free(&w->readback);
+    gl_timers_free(&w->timers);
 }
 
 static size_t pixels_of(const struct frame_data *f)
@@ -60,9 +62,10 @@ const void *gl_work_read(struct gl_work *w, const struct gl_buffer *from, size_t
                          struct error *err)
 {
     barrier_for_copies();
-    return gl_readback_start(&w->readback, w->memory, "readback", from, 0, size, err)
-               ? gl_readback_wait(&w->readback, err)
-               : NULL;
+    gl_timer_begin(&w->timers, "readback");
+    bool begun = gl_readback_start(&w->readback, w->memory, "readback", from, 0, size, err);
+    gl_timer_end(&w->timers);
+    return begun ? gl_readback_wait(&w->readback, err) : NULL;
 }
 
 static bool use(struct gl_work *w, const char *name, const char *defines, struct error *err)
@@ -80,12 +83,28 @@ static void dispatch(size_t groups)
     glDispatchCompute(x, (GLuint)((groups + GROUPS_WIDE - 1) / GROUPS_WIDE), 1);
 }
 
-static void dispatch_counted(const struct gl_work *w)
+// The same for a shader that is bound to what it needs.
+static bool take(struct gl_work *w, const char *name, const char *defines, size_t groups,
+                 struct error *err)
 {
+    bool fine = use(w, name, defines, err);
+    if (fine)
+        dispatch(groups);
+    return fine;
+}
+
+// As many groups as the counters say.
+static bool take_counted(struct gl_work *w, const char *name, const char *defines,
+                         struct error *err)
+{
+    if (!use(w, name, defines, err))
+        return false;
+
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, w->counters.id);
     glDispatchComputeIndirect(offsetof(struct counters, groups));
+    return true;
 }
 
 static void bind_frame(const struct gl_work *w, const struct gl_scene *scene)
@@ -101,17 +120,16 @@ bool gl_work_views(struct gl_work *w, const struct gl_scene *scene, const struct
     gl_buffer_write(&w->frame, 0, f, sizeof *f);
     bind_frame(w, scene);
     gl_buffer_bind(&w->views, BIND_VIEWS);
-    if (!use(w, "leaf_view", "", err))
-        return false;
-    dispatch((scene->leaf_count + GROUP_SIZE - 1) / GROUP_SIZE);
-    return true;
+    gl_timer_begin(&w->timers, "views");
+    bool fine = take(w, "leaf_view", "", (scene->leaf_count + GROUP_SIZE - 1) / GROUP_SIZE, err);
+    gl_timer_end(&w->timers);
+    return fine;
 }
 
 enum { SCAN_LEVELS = 3 }; // 2^30 numbers
 
-// to[i] = the sum of from[0 .. i) for n numbers.
-static bool scan(struct gl_work *w, const struct gl_buffer *from, const struct gl_buffer *to,
-                 size_t n, struct error *err)
+static bool scan_levels(struct gl_work *w, const struct gl_buffer *from, const struct gl_buffer *to,
+                        size_t n, struct error *err)
 {
     size_t count[SCAN_LEVELS + 1] = {n};
     const struct gl_buffer *level[SCAN_LEVELS + 1] = {to};
@@ -123,21 +141,29 @@ static bool scan(struct gl_work *w, const struct gl_buffer *from, const struct g
             return false;
     } while (count[++levels] > 1);
     for (uint32_t i = 0; i < levels; i++) {
-        if (!use(w, "scan", i ? "IN_PLACE" : "SCAN", err))
-            return false;
         gl_buffer_bind_part(from, BIND_SCAN_IN, 0, n * 4);
         gl_buffer_bind_part(level[i], BIND_SCAN_OUT, 0, count[i] * 4);
         gl_buffer_bind_part(level[i + 1], BIND_SCAN_SUMS, 0, count[i + 1] * 4);
-        dispatch(count[i + 1]);
+        if (!take(w, "scan", i ? "IN_PLACE" : "SCAN", count[i + 1], err))
+            return false;
     }
     for (uint32_t i = levels - 1; i-- > 0;) {
-        if (!use(w, "scan", "ADD", err))
-            return false;
         gl_buffer_bind_part(level[i], BIND_SCAN_OUT, 0, count[i] * 4);
         gl_buffer_bind_part(level[i + 1], BIND_SCAN_SUMS, 0, count[i + 1] * 4);
-        dispatch(count[i + 1]);
+        if (!take(w, "scan", "ADD", count[i + 1], err))
+            return false;
     }
     return true;
+}
+
+// to[i] = the sum of from[0 .. i) for n numbers.
+static bool scan(struct gl_work *w, const struct gl_buffer *from, const struct gl_buffer *to,
+                 size_t n, struct error *err)
+{
+    gl_timer_begin(&w->timers, "scan");
+    bool fine = scan_levels(w, from, to, n, err);
+    gl_timer_end(&w->timers);
+    return fine;
 }
 
 static void bind_triangles(const struct gl_work *w, const struct gl_scene *scene)
@@ -156,23 +182,16 @@ static void bind_triangles(const struct gl_work *w, const struct gl_scene *scene
 }
 
 // Takes all triangles, then all pieces of large ones; `define` says what for.
-static bool draw(struct gl_work *w, const struct gl_scene *scene, const char *define,
-                 const char *define_pieces, struct error *err)
+static bool draw(struct gl_work *w, const struct gl_scene *scene, const char *pass,
+                 const char *define, const char *define_pieces, struct error *err)
 {
     bind_triangles(w, scene);
-    if (!use(w, "arguments", "TRIANGLES", err))
-        return false;
-    dispatch(1);
-    if (!use(w, "fragments", define, err))
-        return false;
-    dispatch_counted(w);
-    if (!use(w, "arguments", "", err))
-        return false;
-    dispatch(1);
-    if (!use(w, "fragments", define_pieces, err))
-        return false;
-    dispatch_counted(w);
-    return true;
+    gl_timer_begin(&w->timers, pass);
+    bool fine = take(w, "arguments", "TRIANGLES", 1, err) &&
+                take_counted(w, "fragments", define, err) && take(w, "arguments", "", 1, err) &&
+                take_counted(w, "fragments", define_pieces, err);
+    gl_timer_end(&w->timers);
+    return fine;
 }
 
 static bool select_leaves(struct gl_work *w, const struct gl_scene *scene, struct error *err)
@@ -180,10 +199,10 @@ static bool select_leaves(struct gl_work *w, const struct gl_scene *scene, struc
     bind_frame(w, scene);
     gl_buffer_bind(&w->views, BIND_VIEWS);
     gl_buffer_bind(&w->counts, BIND_COUNTS);
-    if (!use(w, "select", "", err))
-        return false;
-    dispatch(scene->leaf_count / GROUP_SIZE + 1);
-    return scan(w, &w->counts, &w->starts, (size_t)scene->leaf_count + 1, err);
+    gl_timer_begin(&w->timers, "select");
+    bool fine = take(w, "select", "", scene->leaf_count / GROUP_SIZE + 1, err);
+    gl_timer_end(&w->timers);
+    return fine && scan(w, &w->counts, &w->starts, (size_t)scene->leaf_count + 1, err);
 }
 
 bool gl_work_count(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
@@ -200,7 +219,7 @@ bool gl_work_count(struct gl_work *w, const struct gl_scene *scene, struct frame
     gl_buffer_fill(&w->pixel_counts, 0, (pixels + 1) * 4, 0);
     // A buffer of any size: nothing is written to it.
     if (!gl_buffer_grow(&w->fragments, w->memory, "fragments", sizeof(struct fragment), err) ||
-        !draw(w, scene, "COUNT", "COUNT PIECES", err) ||
+        !draw(w, scene, "count", "COUNT", "COUNT PIECES", err) ||
         !scan(w, &w->pixel_counts, &w->offsets, pixels + 1, err))
         return false;
     barrier_for_copies();
@@ -222,7 +241,7 @@ bool gl_work_scatter(struct gl_work *w, const struct gl_scene *scene, const stru
         return false;
     return gl_buffer_grow(&w->fragments, w->memory, "fragments",
                           (size_t)fragments * sizeof(struct fragment), err) &&
-           draw(w, scene, "SCATTER", "SCATTER PIECES", err);
+           draw(w, scene, "scatter", "SCATTER", "SCATTER PIECES", err);
 }
 
 static void bind_walk(const struct gl_work *w, const struct gl_scene *scene,
@@ -240,7 +259,10 @@ static void bind_walk(const struct gl_work *w, const struct gl_scene *scene,
     gl_buffer_bind(&w->misses, BIND_MISSES);
     gl_buffer_bind(&w->claims, BIND_CLAIMS);
     gl_buffer_bind(&w->output, BIND_OUTPUT);
-    gl_buffer_bind(&table->records, BIND_TABLE);
+    if (w->array)
+        gl_buffer_bind(&w->array->nodes, BIND_NODES);
+    else
+        gl_buffer_bind(&table->records, BIND_TABLE);
     if (spans)
         gl_buffer_bind(&w->span_counts, BIND_SPANS);
 }
@@ -250,13 +272,19 @@ static bool walk(struct gl_work *w, const struct gl_scene *scene, const struct f
                  const struct gl_table *table, bool spans, struct counters *c, struct error *err)
 {
     static const uint32_t none[2];
+    char defines[sizeof w->array->defines + 16];
     gl_buffer_write(&w->frame, 0, f, sizeof *f);
     gl_buffer_write(&w->counters, offsetof(struct counters, missed), none, sizeof none);
     gl_buffer_fill(&w->claims, 0, CLAIMS * 4, 0);
     bind_walk(w, scene, table, spans);
-    if (!use(w, "resolve", spans ? "SPANS" : "SURFACE", err))
+    snprintf(defines, sizeof defines, "%s %s", spans ? "SPANS" : "SURFACE",
+             w->array ? w->array->defines : "");
+    gl_timer_begin(&w->timers, f->pending ? "rewalk" : "resolve");
+    bool fine = take(w, "resolve", defines,
+                     ((f->pending ? f->pending : pixels_of(f)) + GROUP_SIZE - 1) / GROUP_SIZE, err);
+    gl_timer_end(&w->timers);
+    if (!fine)
         return false;
-    dispatch(((f->pending ? f->pending : pixels_of(f)) + GROUP_SIZE - 1) / GROUP_SIZE);
     const struct counters *now = gl_work_read(w, &w->counters, sizeof *c, err);
     if (now)
         *c = *now;
@@ -282,7 +310,10 @@ bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct fra
     f->pending = 0;
     *stuck = 0;
     for (;;) {
-        if (!gl_table_upload(table, w->memory, body->table, err))
+        gl_timer_begin(&w->timers, "upload");
+        bool there = gl_table_upload(table, w->memory, body->table, err);
+        gl_timer_end(&w->timers);
+        if (!there)
             return false;
         f->table_shift = table->shift;
         if (!walk(w, scene, f, table, spans, &c, err))
@@ -294,8 +325,11 @@ bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct fra
         w->pending[1] = swap;
         f->pending = c.missed;
         uint32_t found;
+        double begun = clock_seconds();
         if (!learn(w, body, &c, &found, err))
             return false;
+        struct render_pass pass = {"discover", clock_seconds() - begun, 1};
+        render_stats_pass(stats, &pass);
         stats->misses += found;
         if (!found) {
             *stuck = c.missed;

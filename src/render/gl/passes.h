@@ -1,10 +1,12 @@
 // passes.h - the passes of a band and slab: which leaves, how many crossings, the crossings, walks.
 #pragma once
+#include "render/gl/array.h"
 #include "render/gl/discover.h"
 #include "render/gl/frame.h"
 #include "render/gl/program.h"
 #include "render/gl/readback.h"
 #include "render/gl/scene.h"
+#include "render/gl/timer.h"
 
 // Buffers of a frame. All are kept from frame to frame and grow as needed.
 struct gl_work {
@@ -18,6 +20,8 @@ struct gl_work {
     struct gl_buffer fragments;
     struct gl_buffer sums[3]; // of the blocks of a scan
     struct gl_readback readback;
+    struct gl_timers timers;      // of the passes of a picture
+    const struct gl_array *array; // walks go by it; NULL: by the table
 };
 
 void gl_work_free(struct gl_work *w);

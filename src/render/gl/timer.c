@@ -76,6 +76,11 @@ void gl_timers_collect(struct gl_timers *t, bool wait)
         ;
 }
 
+void gl_timers_restart(struct gl_timers *t)
+{
+    t->count = 0;
+}
+
 static void delete_queries(const struct gl_timing *timings, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)

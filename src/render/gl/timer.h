@@ -31,4 +31,5 @@ void gl_timer_end(struct gl_timers *t);
 
 // Takes the results that are there into `passes`; with `wait`, all of them.
 void gl_timers_collect(struct gl_timers *t, bool wait);
-void gl_timers_free(struct gl_timers *t); // leaves {0}
+void gl_timers_restart(struct gl_timers *t); // forgets the results so far
+void gl_timers_free(struct gl_timers *t);    // leaves {0}
