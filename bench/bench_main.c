@@ -10,12 +10,13 @@
 #include <unistd.h>
 
 static struct {
-    const char *list, *scenes, *output, *pictures;
-    bool opencsg, process;
+    const char *list, *scenes, *output, *pictures, *device;
+    bool opencsg, process, unshared;
     uint32_t frames, threads, size;
     double limit;
 } given = {.list = HCSG_BENCH_LIST,
            .scenes = HCSG_BENCH_SCENES,
+           .device = "auto",
            .frames = TURN_VIEWS,
            .threads = 2,
            .size = 1024,
@@ -30,7 +31,13 @@ static const struct option options[] = {
      &given.output, 0, 0},
     {"pictures", 0, OPTION_TEXT, "FOLDER", "write pictures of the first view there",
      &given.pictures, 0, 0},
+    {"device", 0, OPTION_TEXT, "auto|cpu|gl",
+     "measure OpenGL beside the processor: where there is hardware for\n"
+     "it (auto, default), not at all, or also in software",
+     &given.device, 0, 0},
     {"opencsg", 0, OPTION_FLAG, NULL, "measure OpenCSG too, scene by scene", &given.opencsg, 0, 0},
+    {"unshared", 0, OPTION_FLAG, NULL, "give each primitive a value of its own", &given.unshared, 0,
+     0},
     {"process", 0, OPTION_FLAG, NULL,
      "the operands are .csg files: time whole runs of hcsg-render and openscad", &given.process, 0,
      0},
@@ -92,13 +99,14 @@ static bool bench_scene(struct result *r, struct error *err)
     char csg[4096], opencsg[4096];
     snprintf(csg, sizeof csg, "%s/%s.csg", given.scenes, r->scene->name);
     sibling(opencsg, sizeof opencsg, "hcsg-bench-opencsg");
-    const struct measure_options ours = {.threads = given.threads,
-                                         .size = given.size,
-                                         .frames = given.frames,
-                                         .limit = given.limit,
-                                         .pictures = given.pictures};
+    struct measure_options ours = {.threads = given.threads,
+                                   .size = given.size,
+                                   .frames = given.frames,
+                                   .limit = given.limit,
+                                   .unshared = given.unshared,
+                                   .pictures = given.pictures};
     fprintf(stderr, "%s: %s\n", program.name, r->scene->name);
-    if (!measure_scene(r, csg, &ours, err))
+    if (!device_wish_parse(&ours.gl, given.device, err) || !measure_scene(r, csg, &ours, err))
         return false;
     const struct opponent_options theirs = {.program = opencsg,
                                             .size = given.size,

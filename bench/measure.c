@@ -1,105 +1,50 @@
 // measure.c - our own times on one scene.
 #include "measure.h"
 
-#include "base/clock.h"
-#include "base/mem.h"
 #include "base/parallel.h"
-#include "csg/csg.h"
 #include "io/write_png.h"
-#include "render/picture.h"
+#include "stage.h"
 #include "turn.h"
 
-#include <stdlib.h>
+// With more, a frame of the array method takes minutes: leaves, and with OpenGL leaves times the ms
+// of a frame by the hash.
+enum { ARRAY_LEAVES = 1000, GL_ARRAY_EFFORT = 300000 };
 
-enum {
-    LOADS = 5,          // times that a file is read and built
-    ARRAY_LEAVES = 1000 // with more, a frame of the array method takes minutes
-};
-#define LOAD_LIMIT 1.5 // seconds for each of reading and building
-
-// One scene, ready to draw.
-struct stage {
+// What is being measured.
+struct run {
     const struct measure_options *options;
     struct result *result;
-    struct model model;
+    struct stage stage;
     struct device *device;
-    struct shader shader;
-    struct picture picture;
-    struct render_settings settings;
 };
 
-static bool load(struct stage *s, const char *csg, struct error *err)
+static double draw(struct run *s, uint32_t view, struct render_stats *stats)
 {
-    struct result *r = s->result;
-    struct messages messages = {0};
-    struct csg_tree tree = {0};
-    bool ok = true;
-    for (double spent = 0; ok && r->parse.count < LOADS && spent < LOAD_LIMIT;) {
-        csg_free(&tree);
-        double start = clock_seconds();
-        ok = csg_parse_file(&tree, csg, &messages);
-        samples_add(&r->parse, (clock_seconds() - start) * 1e3);
-        spent += clock_seconds() - start;
-    }
-    for (double spent = 0; ok && r->build.count < LOADS && spent < LOAD_LIMIT;) {
-        struct messages warnings = {0};
-        model_free(&s->model);
-        double start = clock_seconds();
-        struct solid_store *store = solid_store_new();
-        model_build(&s->model, &tree, store, &MODEL_DEFAULTS, &warnings);
-        samples_add(&r->build, (clock_seconds() - start) * 1e3);
-        spent += clock_seconds() - start;
-        solid_store_delete(store);
-        if (r->build.count == 1)
-            messages_print(&warnings, stderr);
-        messages_free(&warnings);
-    }
-    if (!ok)
-        error_set(err, "%s", messages.count ? messages.items[0].text : "cannot read the scene");
-    messages_free(&messages);
-    csg_free(&tree);
-    return ok;
+    return stage_draw(&s->stage, s->device, view, stats);
 }
 
-static void note_peak(struct stage *s, const struct render_stats *stats)
+static double draw_spans(struct run *s, uint32_t view, struct render_stats *stats,
+                         uint64_t *intervals)
 {
-    if (stats->peak_bytes > s->result->peak_bytes)
-        s->result->peak_bytes = stats->peak_bytes;
-}
-
-// Draws a view to RGB; returns ms.
-static double draw(struct stage *s, uint32_t view, struct render_stats *stats)
-{
-    struct rays rays = turn_view(s->model.bounds, view, (int)s->options->size);
-    *stats = (struct render_stats){0};
-    double start = clock_seconds();
-    picture_draw(&s->picture, s->device, &s->shader, &rays, &s->settings, stats);
-    double ms = (clock_seconds() - start) * 1e3;
-    note_peak(s, stats);
-    return ms;
-}
-
-static void forget(struct stage *s)
-{
-    for (uint32_t i = 0; i < s->model.body_count; i++)
-        discovery_clear(s->model.bodies[i].table);
+    struct rays rays = turn_view(s->stage.model.bounds, view, (int)s->stage.size);
+    return stage_spans(&s->stage, s->device, &rays, stats, intervals);
 }
 
 // Nanoseconds that a core spends on a fragment.
-static double per_fragment(const struct stage *s, double ms, double fragments)
+static double per_fragment(const struct run *s, double ms, double fragments)
 {
     return fragments > 0 ? ms * 1e6 * s->result->threads / fragments : 0;
 }
 
-static double share_covered(const struct stage *s)
+static double share_covered(const struct run *s)
 {
     size_t pixels = (size_t)s->options->size * s->options->size, covered = 0;
     for (size_t i = 0; i < pixels; i++)
-        covered += s->picture.depth[i] < INFINITY;
+        covered += s->stage.picture.depth[i] < INFINITY;
     return (double)covered / (double)pixels;
 }
 
-static void measure_turn(struct stage *s)
+static void measure_turn(struct run *s)
 {
     struct result *r = s->result;
     struct render_stats stats;
@@ -118,48 +63,7 @@ static void measure_turn(struct stage *s)
     r->nanoseconds = per_fragment(s, samples_median(&r->draw), r->fragments);
 }
 
-struct count { // per worker, on cache lines of their own
-    uint64_t intervals;
-    double length;
-    char apart[112];
-};
-
-static void count_spans(void *context, uint32_t worker, const struct span_block *block)
-{
-    struct count *c = (struct count *)context + worker;
-    size_t rays = (size_t)(block->x1 - block->x0) * (size_t)(block->y1 - block->y0);
-    c->intervals += block->first[rays] - block->first[0];
-    for (uint32_t i = block->first[0]; i < block->first[rays]; i++)
-        c->length += (double)(block->spans[i].leave - block->spans[i].enter);
-}
-
-// All intervals of a view, counted; returns ms.
-static double draw_spans(struct stage *s, uint32_t view, struct render_stats *sum,
-                         uint64_t *intervals)
-{
-    struct rays rays = turn_view(s->model.bounds, view, (int)s->options->size);
-    uint32_t workers = parallel_workers(s->settings.threads);
-    struct count *counts = mem_zalloc(workers * sizeof *counts);
-    *sum = (struct render_stats){0};
-    double start = clock_seconds();
-    for (uint32_t i = 0; i < s->model.body_count; i++) {
-        struct render_stats stats = {0};
-        device_spans(s->device, &s->model.bodies[i], &rays, &s->settings, count_spans, counts,
-                     &stats);
-        sum->fragments += stats.fragments;
-        sum->misses += stats.misses;
-        sum->seconds_draw += stats.seconds_draw;
-        note_peak(s, &stats);
-    }
-    double ms = (clock_seconds() - start) * 1e3;
-    *intervals = 0;
-    for (uint32_t i = 0; i < workers; i++)
-        *intervals += counts[i].intervals;
-    free(counts);
-    return ms;
-}
-
-static void measure_spans(struct stage *s)
+static void measure_spans(struct run *s)
 {
     struct result *r = s->result;
     struct render_stats stats;
@@ -178,26 +82,26 @@ static void measure_spans(struct stage *s)
     r->intervals /= r->spans.count;
     r->span_nanoseconds = per_fragment(s, samples_median(&inside), r->span_fragments);
     samples_free(&inside);
-    for (uint32_t i = 0; i < s->model.body_count; i++) {
-        struct discovery_stats t = discovery_stats(s->model.bodies[i].table);
+    for (uint32_t i = 0; i < s->stage.model.body_count; i++) {
+        struct discovery_stats t = discovery_stats(s->stage.model.bodies[i].table);
         if (t.combinations >= r->table.combinations)
             r->table = t;
     }
 }
 
 // Pairs of frames of one view, so that whatever slows the machine down slows both.
-static void measure_empty(struct stage *s)
+static void measure_empty(struct run *s)
 {
     struct result *r = s->result;
     struct render_stats stats;
     uint64_t intervals;
     double spent = 0;
     for (uint32_t i = 0; i < s->options->frames && (i == 0 || spent < s->options->limit); i++) {
-        forget(s);
+        stage_forget(&s->stage);
         double empty = draw(s, i, &stats), filled = draw(s, i, &stats);
         samples_add(&r->picture_extra, empty / filled - 1);
         spent += (empty + filled) / 1e3;
-        forget(s);
+        stage_forget(&s->stage);
         empty = draw_spans(s, i, &stats, &intervals);
         r->misses += (double)stats.misses;
         filled = draw_spans(s, i, &stats, &intervals);
@@ -207,12 +111,12 @@ static void measure_empty(struct stage *s)
     r->misses /= r->spans_extra.count;
 }
 
-static void measure_walk(struct stage *s, int which, enum walk walk)
+static void measure_walk(struct run *s, int which, enum walk walk)
 {
     struct result *r = s->result;
     struct render_stats stats;
     uint64_t intervals;
-    s->settings.walk = walk;
+    s->stage.settings.walk = walk;
     double spent = 0;
     for (uint32_t i = 0; i < TURN_VIEWS && (i == 0 || spent < s->options->limit); i++) {
         double ms = draw(s, i, &stats);
@@ -225,14 +129,15 @@ static void measure_walk(struct stage *s, int which, enum walk walk)
         samples_add(&r->walk_spans[which], ms);
         spent += ms / 1e3;
     }
-    s->settings.walk = WALK_AUTO;
+    s->stage.settings.walk = WALK_AUTO;
 }
 
-static bool write_picture(const struct stage *s, struct error *err)
+static bool write_picture(const struct run *s, const char *by, struct error *err)
 {
     char path[4096];
-    snprintf(path, sizeof path, "%s/%s-hcsg.png", s->options->pictures, s->result->scene->name);
-    return write_png(path, s->picture.rgb, s->picture.width, s->picture.height, err);
+    snprintf(path, sizeof path, "%s/%s-%s.png", s->options->pictures, s->result->scene->name, by);
+    return write_png(path, s->stage.picture.rgb, s->stage.picture.width, s->stage.picture.height,
+                     err);
 }
 
 static void describe(struct result *r, const struct model *m)
@@ -244,39 +149,116 @@ static void describe(struct result *r, const struct model *m)
     }
 }
 
+// What section 4.2 of the HCSG paper does before the first frame: all intervals from three sides,
+// until no combination is unknown.
+static void measure_batch(struct run *s, struct batch out[BATCHES])
+{
+    static const int sizes[BATCHES] = {BATCH_SMALL, BATCH_LARGE};
+    for (int i = 0; i < BATCHES; i++) {
+        stage_forget(&s->stage);
+        for (uint32_t side = 0; side < 3; side++) {
+            struct rays rays = turn_side(s->stage.model.bounds, side, sizes[i]);
+            struct render_stats stats;
+            uint64_t intervals;
+            out[i].ms += stage_spans(&s->stage, s->device, &rays, &stats, &intervals);
+        }
+        for (uint32_t k = 0; k < s->stage.model.body_count; k++)
+            out[i].combinations += discovery_stats(s->stage.model.bodies[k].table).combinations;
+    }
+}
+
+// A turn of pictures or, with spans, of all intervals.
+static void measure_kind(struct run *s, bool spans, struct gl_kind *out)
+{
+    double spent = 0;
+    for (uint32_t i = 0; i < s->options->frames && (i == 0 || spent < s->options->limit); i++) {
+        struct render_stats stats;
+        uint64_t intervals;
+        double ms = spans ? draw_spans(s, i, &stats, &intervals) : draw(s, i, &stats);
+        spent += ms / 1e3;
+        samples_add(&out->frames, ms);
+        render_stats_add(&out->sum, &stats);
+    }
+}
+
+static bool draw_with_gl(struct run *s, struct gl_result *out, struct error *err)
+{
+    struct render_stats stats;
+    uint64_t intervals;
+    s->stage.peak_bytes = 0;
+    stage_forget(&s->stage);
+    out->cold = draw(s, 0, &stats); // uploads, and may compile
+    if (s->options->pictures && !write_picture(s, "gl", err))
+        return false;
+    measure_kind(s, false, &out->opaque);
+    draw_spans(s, 0, &stats, &intervals); // may compile
+    measure_kind(s, true, &out->spans);
+    measure_batch(s, out->batch);
+    if (s->result->leaves * samples_median(&out->spans.frames) < GL_ARRAY_EFFORT) {
+        s->stage.settings.walk = WALK_ARRAY;
+        draw(s, 0, &stats); // compiles
+        measure_kind(s, false, &out->array_opaque);
+        draw_spans(s, 0, &stats, &intervals); // compiles
+        measure_kind(s, true, &out->array_spans);
+        s->stage.settings.walk = WALK_AUTO;
+    }
+    out->peak_bytes = s->stage.peak_bytes;
+    return !device_failed(s->device, err);
+}
+
+// On a device of its own: what fails with one scene works with the next.
+static bool measure_gl(struct run *s, struct error *err)
+{
+    struct gl_result *out = &s->result->gl;
+    if (s->options->gl == DEVICE_CPU)
+        return true;
+    s->device = device_choose(s->options->gl, err);
+    if (!s->device)
+        return false;
+    out->measured = s->device->description[0];
+    snprintf(out->device, sizeof out->device, "%.*s", (int)sizeof out->device - 1,
+             out->measured ? s->device->description : err->text);
+    bool ok = !out->measured || draw_with_gl(s, out, err);
+    device_delete(s->device);
+    return ok;
+}
+
 bool measure_scene(struct result *out, const char *csg, const struct measure_options *options,
                    struct error *err)
 {
     bool ok = true;
-    struct stage s = {.options = options, .result = out};
-    if (!load(&s, csg, err)) {
-        model_free(&s.model);
+    struct run s = {.options = options,
+                    .result = out,
+                    .stage.size = options->size,
+                    .stage.unshared = options->unshared};
+    if (!stage_load(&s.stage, csg, &out->parse, &out->build, err)) {
+        stage_free(&s.stage);
         return false;
     }
     out->threads = parallel_workers(options->threads);
     out->size = options->size;
-    describe(out, &s.model);
-    s.settings = (struct render_settings){.epsilon = model_epsilon(&s.model, -1),
-                                          .threads = options->threads,
-                                          .memory = (size_t)MEMORY_BUDGET << 20};
+    describe(out, &s.stage.model);
+    s.stage.settings = (struct render_settings){.epsilon = model_epsilon(&s.stage.model, -1),
+                                                .threads = options->threads,
+                                                .memory = (size_t)MEMORY_BUDGET << 20};
     s.device = cpu_device_new();
-    shader_init(&s.shader, &s.model, scheme_list(&(uint32_t){0}));
 
     struct render_stats stats;
     out->cold = draw(&s, 0, &stats);
     if (options->pictures)
-        ok = write_picture(&s, err);
+        ok = write_picture(&s, "hcsg", err);
     if (ok) {
         measure_turn(&s);
         measure_spans(&s);
         measure_empty(&s);
+        measure_batch(&s, out->batch);
         measure_walk(&s, WALK_BY_HASH, WALK_HASH);
         if (out->leaves <= ARRAY_LEAVES)
             measure_walk(&s, WALK_BY_ARRAY, WALK_ARRAY);
     }
-    picture_free(&s.picture);
-    shader_free(&s.shader);
+    out->peak_bytes = s.stage.peak_bytes;
     device_delete(s.device);
-    model_free(&s.model);
+    ok = ok && measure_gl(&s, err);
+    stage_free(&s.stage);
     return ok;
 }

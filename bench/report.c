@@ -86,6 +86,7 @@ void report_rows(FILE *tsv, const struct result *r)
         value(tsv, name, "opencsg_literals", r->literals);
         value(tsv, name, "opencsg_over_ours", ratio(r));
     }
+    report_gl_rows(tsv, r);
     fflush(tsv);
 }
 
@@ -239,6 +240,7 @@ void report_tables(FILE *out, const struct result *results, uint32_t count)
     stages(out, results, count);
     tables(out, results, count);
     walks(out, results, count);
+    report_gl_tables(out, results, count);
 }
 
 static double process_ratio(const struct process_result *p)

@@ -10,8 +10,18 @@ const struct setting opencsg_settings[OPENCSG_SETTINGS] = {
 
 void result_free(struct result *r)
 {
-    struct samples *all[] = {&r->parse, &r->build, &r->picture,       &r->setup,
-                             &r->draw,  &r->spans, &r->picture_extra, &r->spans_extra};
+    struct samples *all[] = {&r->parse,
+                             &r->build,
+                             &r->picture,
+                             &r->setup,
+                             &r->draw,
+                             &r->spans,
+                             &r->picture_extra,
+                             &r->spans_extra,
+                             &r->gl.opaque.frames,
+                             &r->gl.spans.frames,
+                             &r->gl.array_opaque.frames,
+                             &r->gl.array_spans.frames};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         samples_free(all[i]);
     for (int i = 0; i < WALKS; i++) {

@@ -1,6 +1,7 @@
 // result.h - what was measured on one scene.
 #pragma once
 #include "hcsg/discovery.h"
+#include "render/device.h"
 #include "sample.h"
 #include "scenes.h"
 
@@ -20,6 +21,29 @@ extern const struct setting opencsg_settings[OPENCSG_SETTINGS];
 struct opencsg_result {
     struct samples frames; // ms
     bool late;             // not one frame within the limit
+};
+
+// Combinations found from an empty table by three sides of so many pixels.
+enum { BATCH_SMALL = 128, BATCH_LARGE = 1024, BATCHES = 2 };
+struct batch {
+    double ms;
+    uint32_t combinations;
+};
+
+struct gl_kind {             // of frames
+    struct samples frames;   // ms
+    struct render_stats sum; // of all
+};
+
+// What the gl device takes. Times in ms.
+struct gl_result {
+    bool measured;
+    char device[300]; // what draws, or why none does
+    double cold;      // the very first frame
+    struct gl_kind opaque, spans;
+    struct gl_kind array_opaque, array_spans; // by the paper's array
+    struct batch batch[BATCHES];
+    size_t peak_bytes; // beyond the body
 };
 
 enum { WALK_BY_HASH, WALK_BY_ARRAY, WALKS };
@@ -44,6 +68,8 @@ struct result {
     double covered;                       // share of the pixels that show something
     double misses; // combinations evaluated for all intervals from an empty table
     struct discovery_stats table;
+    struct batch batch[BATCHES];
+    struct gl_result gl;
     size_t peak_bytes; // of all frames
     struct opencsg_result opencsg[OPENCSG_SETTINGS];
     uint32_t products, literals;

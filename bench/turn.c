@@ -11,3 +11,14 @@ struct rays turn_view(struct box scene, uint32_t view, int size)
     camera_viewall(&c, scene);
     return camera_rays(&c, size, size, scene);
 }
+
+struct rays turn_side(struct box scene, uint32_t side, int size)
+{
+    static const struct vec3 rotations[] = {{90, 0, 0}, {90, 0, 90}, {0, 0, 0}};
+    struct camera c = CAMERA_DEFAULTS;
+    c.orthographic = true;
+    c.rotation = rotations[side];
+    camera_autocenter(&c, scene);
+    camera_viewall(&c, scene);
+    return camera_rays(&c, size, size, scene);
+}

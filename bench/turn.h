@@ -10,3 +10,6 @@
 enum { TURN_VIEWS = 13 };
 
 struct rays turn_view(struct box scene, uint32_t view, int size); // any number; they repeat
+
+// From the front, the right or the top, parallel, all of the model in view.
+struct rays turn_side(struct box scene, uint32_t side, int size);

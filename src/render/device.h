@@ -63,10 +63,10 @@ enum { RENDER_PASSES = 12 };
 
 struct render_stats {
     double seconds_setup, seconds_draw;
-    uint64_t fragments; // crossings made
-    uint64_t misses;    // combinations evaluated during the frame
-    uint64_t open_rays; // rays on which a mesh did not close
-    size_t peak_bytes;  // beyond model and outputs
+    uint64_t fragments;                       // crossings made
+    uint64_t misses;                          // combinations evaluated during the frame
+    uint64_t open_rays;                       // rays on which a mesh did not close
+    size_t peak_bytes;                        // beyond model and outputs
     struct render_pass passes[RENDER_PASSES]; // of devices that have them
 };
 void render_stats_add(struct render_stats *sum, const struct render_stats *one);
