@@ -76,9 +76,36 @@ vec2 region_of(uint leaf, ivec2 pixel)
     return keys;
 }
 
+void write(uint at, uint leaf, uint triangle, bool leaving, float key, float steep)
+{
+#ifdef COUNT
+    atomicAdd(counts[at], 1);
+#else
+    uint to = offsets[at] + atomicAdd(counts[at], 0xffffffffu) - 1;
+    fragments[to] = fragment(key, leaf << 1 | uint(leaving), triangle, steep);
+#endif
+}
+
+// A crossing of a leaf of which all of the ray must be known. One that may be a sheet has a spare
+// fragment for the sheet's other side.
+void put_winding(uint leaf, uint triangle, bool leaving, float key, float steep, uint at)
+{
+    bool begun = frame.orthographic == 0 && views[leaf].near <= frame.start; // then it closes
+    write(at, leaf, triangle | FRAGMENT_WINDING, leaving, key, steep);
+    if ((leaves[leaf].flags & LEAF_OPEN) != 0 && !begun)
+        write(at, leaf, triangle, false, BEYOND, 0);
+}
+
 void put(uint leaf, uint triangle, bool leaving, float key, float steep, ivec2 pixel)
 {
     uint at = uint(pixel.y - frame.band) * uint(frame.width) + uint(pixel.x);
+    bool later = frame.slab_first == 0;
+    if (later && (states[at].flags & PIXEL_DONE) != 0)
+        return;
+    if ((leaves[leaf].flags & LEAF_WINDING) != 0) {
+        put_winding(leaf, triangle, leaving, key, steep, at);
+        return;
+    }
     if (has_region(leaf)) {
         vec2 region = region_of(leaf, pixel);
         if (!(region.x < region.y))
@@ -93,17 +120,8 @@ void put(uint leaf, uint triangle, bool leaving, float key, float steep, ivec2 p
         key = frame.start;
         steep = 1;
     }
-    if (key > frame.slab_end)
-        return;
-    if (frame.slab_first == 0 &&
-        ((states[at].flags & PIXEL_DONE) != 0 || key < states[at].resume))
-        return;
-#ifdef COUNT
-    atomicAdd(counts[at], 1);
-#else
-    uint to = offsets[at] + atomicAdd(counts[at], 0xffffffffu) - 1;
-    fragments[to] = fragment(key, leaf << 1 | uint(leaving), triangle, steep);
-#endif
+    if (key <= frame.slab_end && !(later && key < states[at].resume))
+        write(at, leaf, triangle, leaving, key, steep);
 }
 
 // The crossings of part `part` of a polygon with the rays of the pixels.

@@ -73,8 +73,6 @@ layout(std430, binding = BIND_OUTPUT) writeonly restrict buffer output_buffer
 };
 #endif
 
-#define BEYOND 3.4e38 // no key: behind everything
-
 struct boundary {
     float key;
     uint leaf, face;
@@ -86,6 +84,7 @@ uint first, size; // its fragments
 bool unknown;     // it met an unknown combination
 uvec2 before;     // the key in front of the cluster [from, to)
 uint from, to;
+float resume; // what is nearer is done with
 
 fragment at(uint i)
 {
@@ -100,11 +99,13 @@ uvec2 step_of(fragment f)
 
 // ------------------------------------------------------------------------------------------ sorting
 
+// Of a leaf that is left and entered at one depth, what leaves goes first.
 bool goes_first(fragment a, fragment b)
 {
     if (a.key != b.key)
         return a.key < b.key;
-    return a.leaf != b.leaf ? a.leaf < b.leaf : a.triangle < b.triangle;
+    uint p = a.leaf ^ FRAGMENT_LEAVES, q = b.leaf ^ FRAGMENT_LEAVES;
+    return p != q ? p < q : a.triangle < b.triangle;
 }
 
 void sort()
@@ -119,6 +120,8 @@ void sort()
         }
 }
 
+#include "winding.glsl"
+
 // Takes out leaves that are entered and left at one depth: what is cut to nothing by the region of
 // the leaf or by the near plane, and meshes that touch themselves.
 void drop_nothings()
@@ -126,8 +129,8 @@ void drop_nothings()
     uint kept = 0;
     for (uint i = 0; i < size; i++) {
         fragment f = at(i);
-        if (kept > 0 && f.key == at(kept - 1).key && f.leaf == (at(kept - 1).leaf | 1u) &&
-            f.leaf != at(kept - 1).leaf)
+        if (kept > 0 && f.key == at(kept - 1).key &&
+            (f.leaf | FRAGMENT_LEAVES) == at(kept - 1).leaf && f.leaf != at(kept - 1).leaf)
             kept--;
         else
             fragments[first + kept++] = f;
@@ -520,8 +523,11 @@ void main()
         s = states[pixel];
     if ((s.flags & PIXEL_DONE) != 0)
         return;
+    resume = frame.slab_first != 0 ? -BEYOND : s.resume;
     if (frame.pending == 0) {
         sort();
+        if (frame.windings != 0 && settle_windings())
+            sort();
         drop_nothings();
     }
     while (size > 0 && at(size - 1).key == BEYOND)

@@ -27,10 +27,11 @@ void main()
     if (i < frame.leaf_count) {
         bool begun = views[i].near <= frame.start && (frame.slab_first != 0 ||
                                                       count.resume <= ordered(frame.start));
+        bool all = begun || (leaves[i].flags & LEAF_WINDING) != 0;
         drawn = views[i].shows != 0 && views[i].y0 <= float(frame.band + frame.rows - 1) &&
                 views[i].y1 >= float(frame.band) &&
-                (begun || views[i].near <= frame.slab_end) &&
-                (begun || frame.slab_first != 0 || ordered(views[i].far) >= count.resume);
+                (all || views[i].near <= frame.slab_end) &&
+                (all || frame.slab_first != 0 || ordered(views[i].far) >= count.resume);
     }
     counts[i] = drawn ? leaves[i].triangle_count : 0;
 }

@@ -52,14 +52,19 @@
 // Leaf flags.
 #define LEAF_MIRRORED   1u
 #define LEAF_SUBTRACTED 2u
-#define LEAF_REGION     4u // times 2^(2 axis + high): that side of its region of interest cuts it
+#define LEAF_OPEN       4u  // winding numbers may not come back to 0
+#define LEAF_WINDING    8u  // they may be other than that, or below 0
+#define LEAF_REGION     16u // times 2^(2 axis + high): that side of its region of interest cuts it
 
 // The low bit of fragment.leaf.
 #define FRAGMENT_LEAVES 1u
 // Bits of fragment.triangle.
 #define FRAGMENT_TURN     0x80000000u // turns the state of its cluster
 #define FRAGMENT_BORDER   0x40000000u // no surface, but where the leaf meets its region's border
-#define FRAGMENT_TRIANGLE 0x3fffffffu
+#define FRAGMENT_WINDING  0x20000000u // of a leaf with LEAF_WINDING, until that is settled
+#define FRAGMENT_TRIANGLE 0x1fffffffu
+
+#define BEYOND 3.4e38 // no key: behind everything
 
 // Nodes of the expression, for the array method: 2^2 times the parent, and what a node does to it.
 #define NODE_ADDS   0u
@@ -87,6 +92,7 @@ struct frame_data {
     uint slab_first, slab_last;
     uint pending; // pixels to be walked; 0: all of the band
     uint large_most, miss_most; // room for pieces; for words of misses
+    uint windings;              // there are leaves with LEAF_WINDING
 };
 
 struct leaf_data {
@@ -132,6 +138,7 @@ struct counters {
     uint large;  // pieces
     uint missed; // pixels
     uint misses; // words
+    uint open;   // rays on which a mesh did not close
     uint alive;  // pixels that go on into the next slab
     uint resume; // the least of theirs, as an ordered number
     uint groups[3]; // of a dispatch, from `arguments`

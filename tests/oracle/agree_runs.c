@@ -4,10 +4,12 @@
 #include "agree.h"
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "broken.h"
 #include "report.h"
 #include "sides.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static double share(uint64_t others, uint64_t pixels)
 {
@@ -88,6 +90,8 @@ static void compare_tree(void *context, uint32_t item, uint32_t worker)
     struct subject subject;
     struct side side;
     random_scene_make(&scene, t->options->seed + item);
+    if (!strcmp(t->options->mode, "broken"))
+        broken_scene(&scene, t->options->seed + item);
     subject_make(&subject, &scene);
     side_of_scene(&side, &scene, &subject.body);
     out->aligned = side.aligned;

@@ -42,8 +42,10 @@ static int parse_option(struct options *o, int left, char **argv)
 
 static bool known_mode(const struct options *o)
 {
-    static const char *const modes[] = {"random", "threads", "memory", "walks"};
-    for (size_t i = 0; i < (o->agree ? 1 : array_count(modes)); i++)
+    static const char *const alone[] = {"random", "threads", "memory", "walks"};
+    static const char *const agree[] = {"random", "broken"};
+    const char *const *modes = o->agree ? agree : alone;
+    for (size_t i = 0; i < (o->agree ? array_count(agree) : array_count(alone)); i++)
         if (!strcmp(o->mode, modes[i]))
             return true;
     return false;

@@ -5,6 +5,7 @@
 //   test_oracle threads | memory | walks                      one picture whatever the settings
 //   test_oracle FILE.csg WIDTH HEIGHT                         a file from several sides
 //   test_oracle agree random [--count N] ...                  two ways to draw, not the oracle
+//   test_oracle agree broken [--count N] ...                  of meshes that are open or inside out
 //   test_oracle agree FILE.csg WIDTH HEIGHT ...
 // --device gl: of the device on the graphics processor. --hash: the one on the processor walks.
 // agree --array: the second way goes by the array method.

@@ -212,6 +212,7 @@ bool gl_work_count(struct gl_work *w, const struct gl_scene *scene, struct frame
     const uint32_t none = 0;
     f->large_most = (uint32_t)(w->large.size / 16);
     f->miss_most = MISS_WORDS;
+    f->windings = scene->windings;
     gl_buffer_write(&w->frame, 0, f, sizeof *f);
     if (!select_leaves(w, scene, err))
         return false;
@@ -337,6 +338,7 @@ bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct fra
         }
     }
     discovery_settle(body->table);
+    stats->open_rays += c.open;
     *alive = c.alive;
     return true;
 }

@@ -2,6 +2,7 @@
 #include "render/gl/scene.h"
 
 #include "base/mem.h"
+#include "geom/winding.h"
 #include "shaders/shared.h"
 
 #include <stdlib.h>
@@ -12,6 +13,7 @@ struct catalogue {
     struct entry {
         const struct solid *solid;
         uint32_t vertex, triangle; // first of it in the buffers
+        uint32_t flags;            // of its leaves
     } * entries;
     uint32_t count;
     uint32_t *entry_of_leaf;
@@ -31,6 +33,16 @@ static int compare_solids(const void *a, const void *b)
     return p->leaf < q->leaf ? -1 : p->leaf > q->leaf;
 }
 
+// What winding numbers around the solid may be.
+static uint32_t winding_flags(const struct solid *s)
+{
+    if (s->convex)
+        return 0;
+    if (!mesh_is_balanced(&s->mesh))
+        return LEAF_OPEN | LEAF_WINDING;
+    return mesh_is_never_inside_out(&s->mesh) ? 0 : LEAF_WINDING;
+}
+
 static bool list_solids(struct catalogue *c, const struct body *body)
 {
     struct solid_of_leaf *all = mem_alloc((body->leaf_count + 1) * sizeof *all);
@@ -43,7 +55,8 @@ static bool list_solids(struct catalogue *c, const struct body *body)
     for (uint32_t i = 0; i < body->leaf_count; i++) {
         const struct solid *s = all[i].solid;
         if (!i || s != all[i - 1].solid) {
-            c->entries[c->count++] = (struct entry){s, (uint32_t)vertices, (uint32_t)triangles};
+            c->entries[c->count++] =
+                (struct entry){s, (uint32_t)vertices, (uint32_t)triangles, winding_flags(s)};
             vertices += s->mesh.vertex_count;
             triangles += s->mesh.triangle_count;
         }
@@ -165,7 +178,9 @@ static bool upload_leaves(struct gl_scene *s, struct gl_memory *memory, const st
         out->first_triangle = e->triangle;
         // what cannot matter is not drawn
         out->triangle_count = class_id == EXPR_NONE ? 0 : e->solid->mesh.triangle_count;
-        out->flags = (l->mirrored ? LEAF_MIRRORED : 0) | (l->subtracted ? LEAF_SUBTRACTED : 0);
+        out->flags =
+            e->flags | (l->mirrored ? LEAF_MIRRORED : 0) | (l->subtracted ? LEAF_SUBTRACTED : 0);
+        s->windings = s->windings || (e->flags & LEAF_WINDING);
         if (body->roi) {
             put_vec(out->roi_low, body->roi[i].min);
             put_vec(out->roi_high, body->roi[i].max);

@@ -7,6 +7,7 @@ struct gl_scene {                                        // {0} is valid: nothin
     struct gl_buffer vertices, triangles, planes, faces; // of all solids
     struct gl_buffer leaves, values;                     // per leaf
     uint32_t leaf_count;
+    bool windings; // there are leaves with LEAF_WINDING
 };
 
 // Inside of the context. False when there is no room.
