@@ -1,6 +1,7 @@
 // fragments.comp.glsl - the crossings of rays and leaves in one band and slab.
 //
-// Built with COUNT they are counted per pixel, else written to the places that the counts made.
+// Built with COUNT they are counted per pixel, with HISTOGRAM by their keys, else written to the places
+// that the counts made.
 // A thread takes one triangle; triangles that may cover many pixels are cut into pieces, which the
 // build with PIECES takes, a work group each. All builds see the same crossings: what decides is
 // exact or `precise`.
@@ -38,6 +39,10 @@ layout(std430, binding = BIND_COUNTERS) restrict buffer counter_buffer
     counters count;
 };
 
+#ifdef HISTOGRAM
+shared uint bins[BINS];
+#endif
+
 bool has_region(uint leaf)
 {
     return frame.borders == 0 && leaves[leaf].flags >= LEAF_REGION;
@@ -48,10 +53,10 @@ bool has_region(uint leaf)
 vec2 region_of(uint leaf, ivec2 pixel)
 {
     vec2 keys = vec2(-3.4e38, 3.4e38);
-    dvec3 shift = double(pixel.x) * vec(frame.step_x) + double(pixel.y) * vec(frame.step_y);
+    precise dvec3 shift = double(pixel.x) * vec(frame.step_x) + double(pixel.y) * vec(frame.step_y);
     bool parallel = frame.orthographic != 0;
-    dvec3 origin = vec(frame.origin) + (parallel ? shift : dvec3(0));
-    dvec3 direction = vec(frame.forward) + (parallel ? dvec3(0) : shift);
+    precise dvec3 origin = vec(frame.origin) + (parallel ? shift : dvec3(0));
+    precise dvec3 direction = vec(frame.forward) + (parallel ? dvec3(0) : shift);
     for (uint side = 0; side < 6; side++) {
         if ((leaves[leaf].flags & LEAF_REGION << side) == 0)
             continue;
@@ -76,9 +81,19 @@ vec2 region_of(uint leaf, ivec2 pixel)
     return keys;
 }
 
+// In perspective a ray begins at the eye, in what it leaves more often than it enters: each crossing
+// of a leaf that reaches up to there has its counterpart at the start.
+bool is_begun(uint leaf)
+{
+    return frame.orthographic == 0 && views[leaf].near <= frame.start;
+}
+
 void write(uint at, uint leaf, uint triangle, bool leaving, float key, float steep)
 {
-#ifdef COUNT
+#if defined(HISTOGRAM)
+    float bin = clamp((key - frame.bins_from) * frame.bins_each, 0, float(BINS - 1));
+    atomicAdd(bins[min(uint(bin), BINS - 1)], 1);
+#elif defined(COUNT)
     atomicAdd(counts[at], 1);
 #else
     uint to = offsets[at] + atomicAdd(counts[at], 0xffffffffu) - 1;
@@ -90,15 +105,16 @@ void write(uint at, uint leaf, uint triangle, bool leaving, float key, float ste
 // fragment for the sheet's other side.
 void put_winding(uint leaf, uint triangle, bool leaving, float key, float steep, uint at)
 {
-    bool begun = frame.orthographic == 0 && views[leaf].near <= frame.start; // then it closes
+#ifndef HISTOGRAM // they are in every slab
     write(at, leaf, triangle | FRAGMENT_WINDING, leaving, key, steep);
-    if ((leaves[leaf].flags & LEAF_OPEN) != 0 && !begun)
+    if ((leaves[leaf].flags & LEAF_OPEN) != 0 && !is_begun(leaf)) // else it closes
         write(at, leaf, triangle, false, BEYOND, 0);
+#endif
 }
 
 void put(uint leaf, uint triangle, bool leaving, float key, float steep, ivec2 pixel)
 {
-    uint at = uint(pixel.y - frame.band) * uint(frame.width) + uint(pixel.x);
+    uint at = uint(pixel.y - frame.band) * uint(frame.columns) + uint(pixel.x - frame.column);
     bool later = frame.slab_first == 0;
     if (later && (states[at].flags & PIXEL_DONE) != 0)
         return;
@@ -128,12 +144,10 @@ void put(uint leaf, uint triangle, bool leaving, float key, float steep, ivec2 p
 void draw(uint leaf, uint triangle, polygon p, int part, int way, pixel_range r, int step,
           ivec2 first)
 {
-    key_plane k = plane_of(leaf, triangle, r.x0, r.y0);
+    key_plane k = plane_of(leaf, triangle, r.left, r.top);
     // y runs down in the picture: counter-clockwise from outside is clockwise there
     bool leaving = way > 0 != (frame.mirrored != 0);
-    // In perspective a ray begins at the eye, in what it leaves more often than it enters: each
-    // crossing of a leaf that reaches up to there has its counterpart at the start.
-    bool begun = frame.orthographic == 0 && views[leaf].near <= frame.start;
+    bool begun = is_begun(leaf);
     for (int y = r.y0 + first.y; y <= r.y1; y += step)
         for (int x = r.x0 + first.x; x <= r.x1; x += step) {
             ivec2 pixel = ivec2(x, y);
@@ -146,7 +160,7 @@ void draw(uint leaf, uint triangle, polygon p, int part, int way, pixel_range r,
 }
 
 #ifdef PIECES
-void main()
+void take()
 {
     uint i = group_number();
     if (i >= min(count.large, frame.large_most))
@@ -154,7 +168,7 @@ void main()
     uvec4 piece = pieces[i];
     polygon p;
     polygon_of(piece.x, piece.y, p);
-    pixel_range all = range_of(p), r;
+    pixel_range all = range_of(p), r = all;
     r.x0 = max(all.x0, int(piece.w & 0xffffu) * PIECE);
     r.y0 = max(all.y0, int(piece.w >> 16) * PIECE);
     r.x1 = min(all.x1, int(piece.w & 0xffffu) * PIECE + PIECE - 1);
@@ -182,6 +196,8 @@ void cut(uint leaf, uint triangle, int part, pixel_range r)
 {
     int x0 = r.x0 / PIECE, y0 = r.y0 / PIECE, x1 = r.x1 / PIECE, y1 = r.y1 / PIECE;
     uint n = uint((x1 - x0 + 1) * (y1 - y0 + 1)), at = atomicAdd(count.large, n);
+    if (at + n < at)
+        count.wrapped = 1;
     if (at + n > frame.large_most || at + n < at)
         return;
     for (int y = y0; y <= y1; y++)
@@ -189,7 +205,7 @@ void cut(uint leaf, uint triangle, int part, pixel_range r)
             pieces[at++] = uvec4(leaf, triangle, part, uint(x) | uint(y) << 16);
 }
 
-void main()
+void take()
 {
     uint i = thread_number();
     if (i >= starts[frame.leaf_count])
@@ -198,6 +214,9 @@ void main()
     uint triangle = leaves[leaf].first_triangle + i - starts[leaf];
     polygon p;
     if (!polygon_of(leaf, triangle, p))
+        return;
+    if (p.low > frame.slab_end && !has_region(leaf) && !is_begun(leaf) &&
+        (leaves[leaf].flags & LEAF_WINDING) == 0)
         return;
     pixel_range r = range_of(p);
     if (r.x0 > r.x1 || r.y0 > r.y1)
@@ -216,3 +235,19 @@ void main()
     }
 }
 #endif
+
+void main()
+{
+#ifdef HISTOGRAM
+    for (uint i = gl_LocalInvocationID.x; i < BINS; i += GROUP_SIZE)
+        bins[i] = 0;
+    barrier();
+    take();
+    barrier();
+    for (uint i = gl_LocalInvocationID.x; i < BINS; i += GROUP_SIZE)
+        if (bins[i] != 0)
+            atomicAdd(counts[i], bins[i]);
+#else
+    take();
+#endif
+}

@@ -17,5 +17,7 @@ dvec3 vec(double a[3])
 
 double frame_key(double depth)
 {
-    return frame.orthographic != 0 ? depth - frame.t0 : frame.t0 - frame.t0 * frame.t0 / depth;
+    precise double key = frame.orthographic != 0 ? depth - frame.t0
+                                                 : frame.t0 - frame.t0 * frame.t0 / depth;
+    return key;
 }

@@ -167,7 +167,7 @@ bool in_subset(int subset, uint i, uint c)
 bool claim(uvec2 key)
 {
     uint mark = (key.x * 0x9e3779b1u ^ key.y * 0x85ebca77u) | 1u;
-    uint found = atomicCompSwap(claims[(key.x ^ key.x >> 16) % CLAIMS], 0, mark);
+    uint found = atomicCompSwap(claims[(key.x ^ key.x >> 16) & frame.claim_mask], 0, mark);
     return found != mark;
 }
 
@@ -175,7 +175,7 @@ bool claim(uvec2 key)
 void record(uvec2 key, int subset, uint c)
 {
     key.y &= SECONDARY;
-    if (!claim(key))
+    if (count.misses > frame.miss_most || !claim(key)) // full; or it is there
         return;
     uint n = 0;
     for (uint i = from; i < to; i++)
@@ -407,7 +407,7 @@ void put_span(boundary enter, boundary leave)
 #else
 void put_surface(boundary b)
 {
-    uint n = uint(frame.width) * uint(frame.rows);
+    uint n = uint(frame.columns) * uint(frame.rows);
     surfaces[pixel] = floatBitsToUint(b.leaf == SURFACE_NO_LEAF ? 1.0 / 0.0 : depth_of(b.key));
     surfaces[n + pixel] = b.leaf;
     surfaces[2 * n + pixel] = b.face;
@@ -448,6 +448,9 @@ void carry(uint end)
     s.entered_leaf = entered.leaf;
     s.entered_face = entered.face;
     states[pixel] = s;
+#ifdef SPANS
+    span_counts[pixel] = written;
+#endif
     atomicAdd(count.alive, 1);
     atomicMin(count.resume, ordered(s.resume));
 }
@@ -479,7 +482,7 @@ bool walk(uvec2 key)
 #endif
     from = 0;
     before = key;
-    for (; i < size && ahead < AHEAD; i++) {
+    for (; i < size && ahead < frame.ahead; i++) {
         fragment f = at(i);
         if (i > from && thick(at(from), f)) {
             to = i;
@@ -512,7 +515,7 @@ bool walk(uvec2 key)
 void main()
 {
     uint i = thread_number();
-    uint pixels = uint(frame.width) * uint(frame.rows);
+    uint pixels = uint(frame.columns) * uint(frame.rows);
     if (i >= (frame.pending != 0 ? frame.pending : pixels))
         return;
     pixel = frame.pending != 0 ? pending[i] : i;

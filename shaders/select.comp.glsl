@@ -30,6 +30,8 @@ void main()
         bool all = begun || (leaves[i].flags & LEAF_WINDING) != 0;
         drawn = views[i].shows != 0 && views[i].y0 <= float(frame.band + frame.rows - 1) &&
                 views[i].y1 >= float(frame.band) &&
+                views[i].x0 <= float(frame.column + frame.columns - 1) &&
+                views[i].x1 >= float(frame.column) &&
                 (all || views[i].near <= frame.slab_end) &&
                 (all || frame.slab_first != 0 || ordered(views[i].far) >= count.resume);
     }

@@ -17,7 +17,7 @@
 #define BIND_FACES     6  // uint, per triangle
 #define BIND_STARTS    7  // uint, per leaf: number of triangles drawn of the leaves before
 #define BIND_LARGE     8  // uint[4], per piece of a large triangle
-#define BIND_COUNTS    9  // uint, per pixel of the band
+#define BIND_COUNTS    9  // uint, per pixel of the band, or per bin of keys
 #define BIND_FRAGMENTS 10 // struct fragment
 #define BIND_TABLE     11 // uint[2]: the records of hcsg/table.h
 #define BIND_NODES     11 // uint: the expression, for the array method, which needs no table
@@ -41,7 +41,7 @@
 #define GROUPS_WIDE  32768u // groups in x of a dispatch; more of them go on in y
 #define SMALL_PIXELS 32     // triangles whose rectangle has no more pixels take one thread
 #define PIECE        32     // larger ones are cut into squares of so many pixels
-#define CLAIMS       65536  // a power of two
+#define BINS         256    // of a histogram of keys
 
 // Grid of picture coordinates: 2^GRID_BITS units a pixel, at most 2^COORDINATE_BITS units in all.
 #define GRID_BITS       18
@@ -85,7 +85,8 @@ struct frame_data {
     float start, end; // keys of near and far
     float to_depth, shift; // depth - reference = key / (1 - key * to_depth) + shift
     int width, height;
-    int band, rows; // of the picture: first row and number of rows
+    int band, rows;      // of the picture: first row and number of rows
+    int column, columns; // likewise; less than the width only for bands of one row
     uint orthographic, mirrored, borders; // mirrored: x, y and the depth are left-handed
     uint leaf_count, table_shift;
     float slab_end; // fragments up to this key are made
@@ -93,6 +94,9 @@ struct frame_data {
     uint pending; // pixels to be walked; 0: all of the band
     uint large_most, miss_most; // room for pieces; for words of misses
     uint windings;              // there are leaves with LEAF_WINDING
+    uint claim_mask;            // number of claims, a power of two, less one
+    uint ahead;                 // AHEAD or less
+    float bins_from, bins_each; // of a histogram: first key; bins per unit
 };
 
 struct leaf_data {
@@ -143,6 +147,7 @@ struct counters {
     uint resume; // the least of theirs, as an ordered number
     uint groups[3]; // of a dispatch, from `arguments`
     uint fragments; // in all
+    uint wrapped;   // the number of pieces is larger than can be counted
 };
 
 #ifndef GL_core_profile

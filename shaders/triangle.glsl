@@ -33,6 +33,7 @@ struct polygon {
 
 struct pixel_range { // inclusive; empty when x1 < x0 or y1 < y0
     int x0, y0, x1, y1;
+    int left, top; // where it would begin if the band were the whole picture
 };
 
 // Keys of the rays that cross the plane of a triangle: a + b dx + c dy from pixel (x, y) on.
@@ -138,10 +139,11 @@ pixel_range range_of(polygon p)
         high = max(high, p.corners[k]);
     }
     int unit = 1 << p.bits;
-    return pixel_range(max((low.x - 1 + unit - 1) >> p.bits, 0),
-                       max((low.y - 1 + unit - 1) >> p.bits, frame.band),
-                       min((high.x + 1) >> p.bits, frame.width - 1),
-                       min((high.y + 1) >> p.bits, frame.band + frame.rows - 1));
+    int left = max((low.x - 1 + unit - 1) >> p.bits, 0);
+    int top = max((low.y - 1 + unit - 1) >> p.bits, 0);
+    return pixel_range(max(left, frame.column), max(top, frame.band),
+                       min((high.x + 1) >> p.bits, frame.column + frame.columns - 1),
+                       min((high.y + 1) >> p.bits, frame.band + frame.rows - 1), left, top);
 }
 
 // Which side of the line a -> b a point lies on: exact, never 0.
@@ -169,37 +171,45 @@ bool crosses(polygon p, int k, int facing, ivec2 pixel)
            side(p.corners[k + 1], p.corners[0], at) == facing;
 }
 
+// From a pixel that does not depend on bands and pieces: keys are the same however a picture is cut.
 key_plane plane_of(uint leaf, uint triangle, int x, int y)
 {
     dvec3 n = dvec3(planes[4 * triangle], planes[4 * triangle + 1], planes[4 * triangle + 2]);
     double d = planes[4 * triangle + 3];
     dvec3 o = vec(views[leaf].origin), f = vec(views[leaf].forward), sx = vec(views[leaf].step_x), sy = vec(views[leaf].step_y);
-    double nx = dot(n, sx), ny = dot(n, sy);
-    double ray = dot(n, f), eye = d - dot(n, o), scale, least;
+    precise double nx = dot(n, sx), ny = dot(n, sy);
+    precise double ray = dot(n, f), eye = d - dot(n, o), scale;
+    precise double a, b, c;
     key_plane k;
     k.x = x;
     k.y = y;
     if (frame.orthographic != 0) {
         eye -= x * nx + y * ny;
         scale = abs(ray) < 1e-25 ? 0 : 1 / ray;
-        k.a = (eye - frame.t0 * ray) * scale;
-        k.b = -nx * scale;
-        k.c = -ny * scale;
+        a = (eye - frame.t0 * ray) * scale;
+        b = -nx * scale;
+        c = -ny * scale;
     } else {
         ray += x * nx + y * ny;
         scale = abs(eye) < 1e-25 ? 0 : frame.t0 / eye;
-        k.a = (eye - frame.t0 * ray) * scale;
-        k.b = -frame.t0 * nx * scale;
-        k.c = -frame.t0 * ny * scale;
+        a = (eye - frame.t0 * ray) * scale;
+        b = -frame.t0 * nx * scale;
+        c = -frame.t0 * ny * scale;
     }
+    k.a = a;
+    k.b = b;
+    k.c = c;
     // n of the world has another length
     dvec3 w = dvec3(leaves[leaf].to_local[0] * n.x + leaves[leaf].to_local[4] * n.y + leaves[leaf].to_local[8] * n.z,
                     leaves[leaf].to_local[1] * n.x + leaves[leaf].to_local[5] * n.y + leaves[leaf].to_local[9] * n.z,
                     leaves[leaf].to_local[2] * n.x + leaves[leaf].to_local[6] * n.y + leaves[leaf].to_local[10] * n.z);
-    float unit = float(1 / length(w));
-    k.steep = float(ray) * unit;
-    k.steep_x = frame.orthographic != 0 ? 0 : float(nx) * unit;
-    k.steep_y = frame.orthographic != 0 ? 0 : float(ny) * unit;
+    precise float unit = float(1 / length(w));
+    precise float steep = float(ray) * unit;
+    precise float steep_x = frame.orthographic != 0 ? 0 : float(nx) * unit;
+    precise float steep_y = frame.orthographic != 0 ? 0 : float(ny) * unit;
+    k.steep = steep;
+    k.steep_x = steep_x;
+    k.steep_y = steep_y;
     return k;
 }
 
@@ -211,5 +221,7 @@ float key_at(key_plane k, polygon p, ivec2 pixel)
 
 float steep_at(key_plane k, ivec2 pixel)
 {
-    return abs(k.steep + k.steep_x * float(pixel.x - k.x) + k.steep_y * float(pixel.y - k.y));
+    precise float steep = k.steep + k.steep_x * float(pixel.x - k.x) +
+                          k.steep_y * float(pixel.y - k.y);
+    return abs(steep);
 }

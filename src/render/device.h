@@ -48,6 +48,7 @@ struct render_settings {
     double epsilon;   // intervals thinner than this across their faces do not exist, mm
     uint32_t threads; // 0: one per processor
     size_t memory;    // budget in bytes for a frame beyond model and outputs; 0: 256 MB
+    uint32_t slabs;   // gl: at least so many slabs of depth; 0: as many as the budget demands
     enum walk walk;
     bool sparse;                  // where no leaf can be, outputs are neither written nor told
     const atomic_bool *cancelled; // once true, the frame ends early and means nothing; NULL: never

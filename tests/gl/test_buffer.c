@@ -33,6 +33,11 @@ static void budget_is_kept(void **state)
     assert_int_equal(memory.used, 1000);
     assert_false(gl_buffer_fit(&b, &memory, "b", SIZE_MAX, &err));
 
+    memory.largest = 500;
+    assert_false(gl_buffer_fit(&a, &memory, "a", 501, &err));
+    assert_string_equal(err.text, "a: 501 bytes, of which shaders can use no more than 500");
+    assert_int_equal(a.size, 300);
+
     gl_buffer_free(&a);
     gl_buffer_free(&a);
     gl_buffer_free(&b);

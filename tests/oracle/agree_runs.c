@@ -58,6 +58,7 @@ static void compare(struct agreement *out, struct device *first, struct device *
     struct picture a, b;
     struct render_settings settings = side->settings;
     settings.memory = options->memory;
+    settings.slabs = options->slabs;
     settings.walk = options->walk;
     picture_render(&a, first, side->body, &side->rays, &settings);
     settings.walk = options->array ? WALK_ARRAY : WALK_HASH;

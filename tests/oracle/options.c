@@ -33,6 +33,8 @@ static int parse_option(struct options *o, int left, char **argv)
         o->threads = (uint32_t)strtoul(argv[1], NULL, 10);
     else if (!strcmp(argv[0], "--seed"))
         o->seed = strtoull(argv[1], NULL, 10);
+    else if (!strcmp(argv[0], "--slabs"))
+        o->slabs = (uint32_t)strtoul(argv[1], NULL, 10);
     else if (!strcmp(argv[0], "--memory"))
         o->memory = strtoull(argv[1], NULL, 10) << 20;
     else
@@ -42,7 +44,7 @@ static int parse_option(struct options *o, int left, char **argv)
 
 static bool known_mode(const struct options *o)
 {
-    static const char *const alone[] = {"random", "threads", "memory", "walks"};
+    static const char *const alone[] = {"random", "threads", "memory", "slabs", "walks"};
     static const char *const agree[] = {"random", "broken"};
     const char *const *modes = o->agree ? agree : alone;
     for (size_t i = 0; i < (o->agree ? array_count(agree) : array_count(alone)); i++)

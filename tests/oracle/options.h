@@ -15,6 +15,7 @@ struct options {
     bool gl;    // the device under test
     bool array; // it walks by the array method
     size_t memory;
+    uint32_t slabs;
 };
 
 bool options_parse(struct options *out, int argc, char **argv); // false: it has said what is wrong

@@ -2,11 +2,12 @@
 //
 //   test_oracle random [--count N] [--seed N] [--threads N]   random trees, pixel by pixel
 //   test_oracle random --seed N --pixel X Y                   one pixel, with the fewest leaves
-//   test_oracle threads | memory | walks                      one picture whatever the settings
+//   test_oracle threads | memory | slabs | walks              one picture whatever the settings
 //   test_oracle FILE.csg WIDTH HEIGHT                         a file from several sides
 //   test_oracle agree random [--count N] ...                  two ways to draw, not the oracle
 //   test_oracle agree broken [--count N] ...                  of meshes that are open or inside out
 //   test_oracle agree FILE.csg WIDTH HEIGHT ...
+// --memory MB, --slabs N: what it has to do with, for agree.
 // --device gl: of the device on the graphics processor. --hash: the one on the processor walks.
 // agree --array: the second way goes by the array method.
 #include "agree_runs.h"
@@ -299,6 +300,13 @@ int main(int argc, char **argv)
         {.threads = 1}, {.threads = 2}, {.threads = 8}};
     static const struct render_settings memory[] = {{.threads = 2},
                                                     {.threads = 2, .memory = 16 << 20}};
+    static const struct render_settings gl_memory[] = {{.threads = 2},
+                                                       {.memory = 4 << 20},
+                                                       {.memory = 1 << 20},
+                                                       {.memory = 64 << 10},
+                                                       {.memory = 0}};
+    static const struct render_settings slabs[] = {
+        {.slabs = 0}, {.slabs = 1}, {.slabs = 3}, {.slabs = 5}, {.slabs = 17, .memory = 2 << 20}};
     static const struct render_settings walks[] = {{.walk = WALK_HASH}, {.walk = WALK_ARRAY}};
     struct options options = {0};
     if (!options_parse(&options, argc, argv))
@@ -309,6 +317,10 @@ int main(int argc, char **argv)
         return run_file(&options);
     if (!strcmp(options.mode, "threads"))
         return run_same(&options, threads, array_count(threads), 40, 8);
+    if (!strcmp(options.mode, "slabs"))
+        return run_same(&options, slabs, array_count(slabs), 7, 2);
+    if (!strcmp(options.mode, "memory") && options.gl)
+        return run_same(&options, gl_memory, array_count(gl_memory), 7, 3);
     if (!strcmp(options.mode, "memory"))
         return run_same(&options, memory, array_count(memory), 16, 24);
     if (!strcmp(options.mode, "walks"))

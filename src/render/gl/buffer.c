@@ -19,6 +19,11 @@ bool gl_buffer_make(struct gl_buffer *b, struct gl_memory *memory, const char *l
     if (size == b->size)
         return true;
     assert(!b->memory || b->memory == memory);
+    if (memory->largest && size > memory->largest) {
+        error_set(err, "%s: %zu bytes, of which shaders can use no more than %zu", label, size,
+                  memory->largest);
+        return false;
+    }
     size_t others = memory->used - b->size;
     if (size > memory->budget || others > memory->budget - size) {
         error_set(err, "%s: %zu bytes beside %zu others are more than the budget of %zu", label,

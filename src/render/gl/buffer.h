@@ -7,7 +7,8 @@
 // What all buffers of one device hold. Nothing is made that would go above the budget.
 struct gl_memory {
     size_t used, peak;
-    size_t budget; // SIZE_MAX: no bound
+    size_t budget;  // SIZE_MAX: no bound
+    size_t largest; // that a shader can use, of a single one; 0: no bound
 };
 
 // {0} is a valid empty buffer. All functions are for the inside of the context.

@@ -1,20 +1,19 @@
-// device.c - the gl device: pictures cut into bands of rows and slabs of depth that fit the budget.
+// device.c - the gl device: which bodies stay on the graphics processor, and how pictures are told.
 #include "render/gl/device.h"
 
 #include "base/clock.h"
 #include "base/mem.h"
 #include "base/parallel.h"
-#include "render/gl/passes.h"
+#include "render/gl/bands.h"
+#include "render/gl/spans.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum {
     MEMORY_DEFAULT = 256 << 20,
-    PIXEL_BYTES = 64, // of all buffers of a band, rounded up
-    CHUNK_ROWS = 64,  // are told of at once
-    RESIDENTS = 8,    // bodies that stay on the graphics processor
+    CHUNK_ROWS = 64, // are told of at once
+    RESIDENTS = 8,   // bodies that stay on the graphics processor
 };
 
 // A body on the graphics processor.
@@ -37,126 +36,6 @@ struct gl_device {
     uint64_t pictures;
 };
 
-// A picture that is being drawn.
-struct drawing {
-    struct gl_device *d;
-    const struct body *body;
-    const struct rays *rays;
-    const struct render_settings *settings;
-    struct render_stats *stats;
-    struct resident *resident;
-    struct frame_data frame;
-    bool spans;
-    bool whole;      // the band is not cut in depth
-    float near, far; // keys between which leaves lie
-    size_t most;     // fragments that the budget has room for
-    struct error *err;
-};
-
-static bool cancelled(const struct drawing *g)
-{
-    const atomic_bool *c = g->settings->cancelled;
-    return c && atomic_load_explicit(c, memory_order_relaxed);
-}
-
-// ------------------------------------------------------------------------------------ bands and
-// slabs
-
-// Makes the crossings of the band up to frame.slab_end, or up to where there is room for them.
-// False: not even the nearest have room; *failed: nor had the driver.
-static bool fill(struct drawing *g, float begin, bool *failed)
-{
-    struct frame_data *f = &g->frame;
-    struct gl_work *w = &g->d->work;
-    uint32_t fragments, pieces;
-    *failed = false;
-    for (;;) {
-        if (!gl_work_count(w, &g->resident->scene, f, &fragments, &pieces, g->err)) {
-            *failed = true;
-            return false;
-        }
-        if (pieces > f->large_most) {
-            if ((size_t)pieces * 16 > g->most * sizeof(struct fragment) / 2)
-                return false;
-            *failed = !gl_buffer_grow(&w->large, w->memory, "large", (size_t)pieces * 16, g->err);
-            if (*failed)
-                return false;
-            continue;
-        }
-        if (fragments <= g->most || (f->rows == 1 && g->whole))
-            break;
-        float end = begin + (fminf(f->slab_end, g->far) - begin) / 2;
-        if (g->whole || !(end > begin && end < f->slab_end)) {
-            if (f->rows > 1)
-                return false;
-            break; // a row at one depth: less is not to be had
-        }
-        f->slab_end = end;
-        f->slab_last = false;
-    }
-    g->stats->fragments += fragments;
-    *failed = !gl_work_scatter(w, &g->resident->scene, f, fragments, g->spans, g->err);
-    return !*failed;
-}
-
-enum outcome { BAND_DONE, BAND_TOO_LARGE, BAND_FAILED };
-
-static enum outcome draw_band(struct drawing *g, uint32_t *stuck)
-{
-    struct frame_data *f = &g->frame;
-    float begin = g->near;
-    uint32_t alive = 1;
-    bool failed;
-    if (!gl_work_prepare(&g->d->work, &g->resident->scene, f, g->spans, g->err) ||
-        !gl_work_views(&g->d->work, &g->resident->scene, f, g->err))
-        return BAND_FAILED;
-    for (f->slab_first = true; alive; f->slab_first = false) {
-        f->slab_end = f->end;
-        f->slab_last = true;
-        if (!fill(g, begin, &failed))
-            return failed ? BAND_FAILED : BAND_TOO_LARGE;
-        if (!gl_work_resolve(&g->d->work, &g->resident->scene, f, &g->resident->table, g->body,
-                             g->spans, stuck, &alive, g->stats, g->err))
-            return BAND_FAILED;
-        if (*stuck || f->slab_last || cancelled(g))
-            break;
-        begin = f->slab_end;
-    }
-    return BAND_DONE;
-}
-
-// How many rows of the picture fit the budget at once.
-static int rows_within(const struct drawing *g)
-{
-    size_t budget = g->settings->memory ? g->settings->memory : MEMORY_DEFAULT;
-    size_t rows = budget / 4 / PIXEL_BYTES / (size_t)g->rays->width;
-    return rows < 1 ? 1 : rows < (size_t)g->rays->height ? (int)rows : g->rays->height;
-}
-
-// Draws the picture band by band; `take` gets each. Returns the rows that are done.
-static int draw(struct drawing *g, bool (*take)(struct drawing *g, void *context), void *context)
-{
-    struct frame_data *f = &g->frame;
-    int rows = rows_within(g);
-    uint32_t stuck = 0;
-    for (f->band = 0; f->band < f->height && !cancelled(g);) {
-        f->rows = f->height - f->band < rows ? f->height - f->band : rows;
-        enum outcome o = draw_band(g, &stuck);
-        if (o == BAND_TOO_LARGE) {
-            rows = f->rows > 1 ? f->rows / 2 : 1;
-            continue;
-        }
-        if (o == BAND_DONE && stuck)
-            error_set(g->err, "%u combinations share one primary key", stuck);
-        if (o == BAND_FAILED || stuck || gl_context_failed(g->d->context, g->err))
-            return f->band;
-        if (!take(g, context))
-            return f->band;
-        f->band += f->rows;
-    }
-    return f->height;
-}
-
 static void evict(struct resident *r)
 {
     gl_scene_free(&r->scene);
@@ -166,9 +45,8 @@ static void evict(struct resident *r)
 }
 
 // Makes the body resident, in place of the one that was not used for longest.
-static bool settle(struct drawing *g)
+static bool settle(struct gl_device *d, struct gl_drawing *g)
 {
-    struct gl_device *d = g->d;
     uint64_t identity = discovery_identity(g->body->table);
     struct resident *oldest = d->residents;
     d->pictures++;
@@ -176,7 +54,9 @@ static bool settle(struct drawing *g)
         struct resident *r = &d->residents[i];
         if (r->identity == identity) {
             r->used = d->pictures;
-            g->resident = r;
+            g->scene = &r->scene;
+            g->table = &r->table;
+            g->array = &r->array;
             return true;
         }
         oldest = r->used < oldest->used ? r : oldest;
@@ -191,34 +71,49 @@ static bool settle(struct drawing *g)
     }
     oldest->identity = identity;
     oldest->used = d->pictures;
-    g->resident = oldest;
+    g->scene = &oldest->scene;
+    g->table = &oldest->table;
+    g->array = &oldest->array;
     return true;
 }
 
-static bool choose_walk(struct drawing *g)
+static bool choose_walk(struct gl_device *d, struct gl_drawing *g)
 {
-    struct gl_array *a = &g->resident->array;
     bool by_array = g->settings->walk == WALK_ARRAY;
-    g->d->work.array = by_array ? a : NULL;
-    return !by_array || a->nodes.id || gl_array_upload(a, &g->d->model, g->body, g->err);
+    d->work.array = by_array ? g->array : NULL;
+    return !by_array || g->array->nodes.id || gl_array_upload(g->array, &d->model, g->body, g->err);
 }
 
-static bool begin(struct drawing *g)
+// What numbers of the shaders cannot hold.
+static bool countable(const struct gl_drawing *g)
+{
+    const int most = (1 << 16) * PIECE; // a piece's place is two numbers of 16 bits
+    if (g->rays->width <= most && g->rays->height <= most)
+        return true;
+    error_set(g->err, "the gl device draws no more than %d pixels a side", most);
+    return false;
+}
+
+static bool begin(struct gl_device *d, struct gl_drawing *g)
 {
     size_t budget = g->settings->memory ? g->settings->memory : MEMORY_DEFAULT;
-    size_t block = gl_context_facts(g->d->context)->storage_size;
-    g->most = (budget < block ? budget / 2 : block / 2) / sizeof(struct fragment);
+    struct gl_plan plan;
+    if (!countable(g) ||
+        !gl_plan_make(&plan, budget, gl_context_facts(d->context)->storage_size, g->rays->width,
+                      g->rays->height, g->body->leaf_count, g->spans, g->err))
+        return false;
+    gl_work_begin(&d->work, &plan, budget, g->spans);
     gl_frame_init(&g->frame, g->body, g->rays, g->settings);
     if (!gl_frame_range(&g->frame, g->rays, g->body, &g->near, &g->far))
         g->near = g->far = g->frame.start;
-    g->whole = g->spans || g->settings->walk == WALK_ARRAY; // counters are not carried on
-    return settle(g) && choose_walk(g);
+    g->whole = g->settings->walk == WALK_ARRAY; // counters are not carried on
+    return settle(d, g) && choose_walk(d, g);
 }
 
 // The times of the picture's passes, all of which have ended but for the last copies.
-static void tell_passes(struct drawing *g)
+static void tell_passes(struct gl_drawing *g)
 {
-    struct gl_timers *t = &g->d->work.timers;
+    struct gl_timers *t = &g->work->timers;
     gl_timers_collect(t, true);
     for (uint32_t i = 0; i < t->count; i++) {
         const struct gl_pass *p = &t->passes[i];
@@ -228,21 +123,25 @@ static void tell_passes(struct drawing *g)
 }
 
 // Draws in the context.
-static int run(struct drawing *g, bool (*take)(struct drawing *g, void *context), void *context)
+static int run(struct device *device, struct gl_drawing *g)
 {
+    struct gl_device *d = (struct gl_device *)device;
     double begun = clock_seconds();
-    if (!gl_context_enter(g->d->context, g->err))
+    g->context = d->context;
+    g->work = &d->work;
+    if (!gl_context_enter(d->context, g->err))
         return 0;
     int rows = 0;
-    if (begin(g)) {
+    if (begin(d, g)) {
         g->stats->seconds_setup = clock_seconds() - begun;
         begun = clock_seconds();
-        rows = draw(g, take, context);
+        rows = gl_bands_draw(g);
         g->stats->seconds_draw = clock_seconds() - begun;
     }
     tell_passes(g);
-    g->stats->peak_bytes = g->d->memory.peak;
-    gl_context_leave(g->d->context);
+    g->stats->peak_bytes = d->memory.peak;
+    gl_slabs_free(&g->slabs);
+    gl_context_leave(d->context);
     return rows;
 }
 
@@ -269,20 +168,26 @@ static void tell_chunk(void *context, uint32_t chunk, uint32_t worker)
     s->drawn(s->context, (struct pixel_rect){0, y0, s->out->width, y1}, nothing);
 }
 
-static bool take_surfaces(struct drawing *g, void *context)
+// The band's planes of depth, leaf and face.
+static bool read_surfaces(struct gl_drawing *g, const struct surface_image *out)
 {
-    struct surfaces *s = context;
-    size_t width = (size_t)g->frame.width;
-    size_t n = width * (size_t)g->frame.rows, at = width * (size_t)g->frame.band;
-    const uint32_t *output = gl_work_read(&g->d->work, &g->d->work.output, n * 12, g->err);
-    if (!output)
-        return false;
-    memcpy(s->out->depth + at, output, n * 4);
-    memcpy(s->out->leaf + at, output + n, n * 4);
-    memcpy(s->out->face + at, output + 2 * n, n * 4);
+    const struct frame_data *f = &g->frame;
+    const struct gl_buffer *output = &g->work->output;
+    size_t n = (size_t)f->columns * (size_t)f->rows; // together: of one row, or all columns
+    size_t at = (size_t)f->width * (size_t)f->band + (size_t)f->column;
+    return gl_work_read(g->work, output, 0, out->depth + at, n * 4, g->err) &&
+           gl_work_read(g->work, output, n * 4, out->leaf + at, n * 4, g->err) &&
+           gl_work_read(g->work, output, n * 8, out->face + at, n * 4, g->err);
+}
+
+static bool take_surfaces(struct gl_drawing *g, enum gl_taken what)
+{
+    struct surfaces *s = g->taker;
     s->band = g->frame.band;
     s->rows = g->frame.rows;
-    if (s->drawn)
+    if (what == GL_BAND)
+        return read_surfaces(g, s->out);
+    if (what == GL_ROWS && s->drawn)
         parallel_for((uint32_t)((s->rows + CHUNK_ROWS - 1) / CHUNK_ROWS), g->settings->threads,
                      tell_chunk, s);
     return true;
@@ -294,13 +199,14 @@ static int first_surface(struct device *device, const struct body *body, const s
                          void *context, struct render_stats *stats, struct error *err)
 {
     struct surfaces s = {.out = out, .drawn = drawn, .context = context};
-    struct drawing g = {.d = (struct gl_device *)device,
-                        .body = body,
-                        .rays = rays,
-                        .settings = settings,
-                        .stats = stats,
-                        .err = err};
-    return run(&g, take_surfaces, &s);
+    struct gl_drawing g = {.body = body,
+                           .rays = rays,
+                           .settings = settings,
+                           .stats = stats,
+                           .take = take_surfaces,
+                           .taker = &s,
+                           .err = err};
+    return run(device, &g);
 }
 
 // --------------------------------------------------------------------------------------------
@@ -310,25 +216,16 @@ struct span_sink {
     void (*sink)(void *context, uint32_t worker, const struct span_block *block);
     void *context;
     const struct frame_data *frame;
-    const uint32_t *offsets, *counts;
-    const struct span *spans;
+    struct gl_spans spans; // of the rows of the band
+    uint32_t kept;         // parts of it that will not come again
 };
 
-// One row of the band: its spans stand at the places of its crossings.
 static void tell_row(void *context, uint32_t row, uint32_t worker)
 {
     const struct span_sink *s = context;
-    uint32_t width = (uint32_t)s->frame->width, begun = row * width, total = 0;
-    uint32_t *first = mem_alloc((width + 1) * sizeof *first);
-    for (uint32_t x = 0; x < width; x++) {
-        first[x] = total;
-        total += s->counts[begun + x];
-    }
-    first[width] = total;
-    struct span *spans = mem_alloc((total + 1) * sizeof *spans);
-    for (uint32_t x = 0; x < width; x++)
-        for (uint32_t k = 0; k < s->counts[begun + x]; k++)
-            spans[first[x] + k] = s->spans[s->offsets[begun + x] / 2 + begun + x + k];
+    uint32_t *first;
+    struct span *spans;
+    gl_spans_row(&s->spans, row, s->frame->width, &first, &spans);
     int y = s->frame->band + (int)row;
     struct span_block block = {0, y, s->frame->width, y + 1, first, spans};
     s->sink(s->context, worker, &block);
@@ -336,35 +233,25 @@ static void tell_row(void *context, uint32_t row, uint32_t worker)
     free(spans);
 }
 
-// The first bytes of a buffer, to be freed. NULL when the context is lost.
-static void *copy_of(struct drawing *g, const struct gl_buffer *b, size_t size)
+static bool take_spans(struct gl_drawing *g, enum gl_taken what)
 {
-    const void *now = gl_work_read(&g->d->work, b, size, g->err);
-    return now ? memcpy(mem_alloc(size), now, size) : NULL;
-}
-
-static bool take_spans(struct drawing *g, void *context)
-{
-    struct span_sink *s = context;
-    struct gl_work *w = &g->d->work;
-    size_t pixels = (size_t)g->frame.width * (size_t)g->frame.rows;
-    uint32_t *offsets = copy_of(g, &w->offsets, (pixels + 1) * 4);
-    uint32_t *counts = copy_of(g, &w->span_counts, pixels * 4);
-    const struct span *spans = NULL;
-    if (offsets && counts) {
-        size_t places = offsets[pixels] / 2 + pixels;
-        spans = gl_work_read(w, &w->output, places * sizeof *spans, g->err);
-    }
-    if (spans) {
+    struct span_sink *s = g->taker;
+    switch (what) {
+    case GL_SLAB:
+        return gl_spans_add(&s->spans, g->work, &g->frame, g->err);
+    case GL_AGAIN:
+        gl_spans_keep(&s->spans, s->kept);
+        return true;
+    case GL_BAND:
+        s->kept = s->spans.count;
+        return true;
+    case GL_ROWS:
         s->frame = &g->frame;
-        s->offsets = offsets;
-        s->counts = counts;
-        s->spans = spans;
         parallel_for((uint32_t)g->frame.rows, g->settings->threads, tell_row, s);
+        gl_spans_keep(&s->spans, s->kept = 0);
+        return true;
     }
-    free(offsets);
-    free(counts);
-    return spans;
+    return false;
 }
 
 static int spans(struct device *device, const struct body *body, const struct rays *rays,
@@ -373,14 +260,17 @@ static int spans(struct device *device, const struct body *body, const struct ra
                  void *context, struct render_stats *stats, struct error *err)
 {
     struct span_sink s = {.sink = sink, .context = context};
-    struct drawing g = {.d = (struct gl_device *)device,
-                        .body = body,
-                        .rays = rays,
-                        .settings = settings,
-                        .stats = stats,
-                        .spans = true,
-                        .err = err};
-    return run(&g, take_spans, &s);
+    struct gl_drawing g = {.body = body,
+                           .rays = rays,
+                           .settings = settings,
+                           .stats = stats,
+                           .spans = true,
+                           .take = take_spans,
+                           .taker = &s,
+                           .err = err};
+    int rows = run(device, &g);
+    gl_spans_free(&s.spans);
+    return rows;
 }
 
 // -------------------------------------------------------------------------------------------
@@ -417,8 +307,10 @@ struct device *gl_device_new(bool software, struct error *err)
         snprintf(d->device.description, sizeof d->device.description, "%s, OpenGL %s",
                  facts->renderer, facts->version);
         gl_programs_init(&d->programs, NULL);
-        d->model.budget = d->memory.budget = SIZE_MAX;
+        d->model.budget = SIZE_MAX;
+        d->model.largest = d->memory.largest = facts->storage_size;
         d->work.memory = &d->memory;
+        d->work.model = &d->model;
         d->work.programs = &d->programs;
         return &d->device;
     }

@@ -36,7 +36,8 @@ static bool discover_one(const struct body *body, const uint32_t *r, struct clas
         steps[i] = (struct class_step){s->class_of_leaf[r[5 + i] >> 1],
                                        r[5 + i] & FRAGMENT_LEAVES ? -1 : 1};
     }
-    return discovery_extend(body->table, from, steps, r[4], key);
+    return discovery_extend(body->table, from, steps, r[4], key) &&
+           discovery_lookup(body->table, key) != SET_UNKNOWN; // or the table had no place for it
 }
 
 uint32_t gl_discover(const struct body *body, const uint32_t *records, size_t words)

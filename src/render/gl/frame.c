@@ -35,6 +35,7 @@ void gl_frame_init(struct frame_data *f, const struct body *body, const struct r
                              .width = rays->width,
                              .height = rays->height,
                              .rows = rays->height,
+                             .columns = rays->width,
                              .t0 = rays->reference,
                              .near = rays->near,
                              .far = rays->far,

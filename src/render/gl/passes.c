@@ -6,11 +6,9 @@
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum {
-    MISS_WORDS = 1 << 20,    // of records of unknown combinations, per round
-    LARGE_PIECES = 64 << 10, // of large triangles; grows
-};
+enum { LARGE_PIECES = 64 << 10 }; // of large triangles; grows
 
 void gl_work_free(struct gl_work *w)
 {
@@ -18,7 +16,7 @@ void gl_work_free(struct gl_work *w)
                                &w->counts,     &w->large,    &w->pixel_counts, &w->offsets,
                                &w->states,     &w->output,   &w->span_counts,  &w->pending[0],
                                &w->pending[1], &w->misses,   &w->claims,       &w->fragments,
-                               &w->sums[0],    &w->sums[1],  &w->sums[2]};
+                               &w->sums[0],    &w->sums[1],  &w->sums[2],      &w->bins};
     for (size_t i = 0; i < array_count(all); i++)
         gl_buffer_free(all[i]);
     gl_readback_free(&w->readback);
@@ -27,27 +25,70 @@ void gl_work_free(struct gl_work *w)
 
 static size_t pixels_of(const struct frame_data *f)
 {
-    return (size_t)f->width * (size_t)f->rows;
+    return (size_t)f->columns * (size_t)f->rows;
+}
+
+static void trim(struct gl_buffer *b, size_t most)
+{
+    if (b->size > most)
+        gl_buffer_free(b);
+}
+
+// Room for a number that grows from frame to frame: more than asked for, but no more than planned.
+static size_t with_reserve(size_t needed, size_t most)
+{
+    size_t more = needed + needed / 4;
+    return more < most ? more : needed > most ? needed : most;
+}
+
+void gl_work_begin(struct gl_work *w, const struct gl_plan *plan, size_t budget, bool spans)
+{
+    struct gl_memory *m = w->memory;
+    size_t pixels = (size_t)plan->rows * (size_t)plan->columns;
+    w->plan = *plan;
+    size_t sums = plan->numbers;
+    for (size_t i = 0; i < array_count(w->sums); i++) {
+        sums = sums / SCAN_BLOCK + 1;
+        trim(&w->sums[i], sums * 4);
+    }
+    trim(&w->large, (size_t)plan->pieces * 16);
+    trim(&w->pixel_counts, (pixels + 1) * 4);
+    trim(&w->offsets, (pixels + 1) * 4);
+    trim(&w->states, pixels * sizeof(struct pixel_state));
+    trim(&w->pending[0], pixels * 4);
+    trim(&w->pending[1], pixels * 4);
+    trim(&w->span_counts, pixels * 4);
+    trim(&w->misses, (size_t)plan->miss_words * 4);
+    trim(&w->claims, (size_t)plan->claims * 4);
+    trim(&w->fragments, (size_t)plan->fragments * sizeof(struct fragment));
+    trim(&w->output,
+         spans ? (pixels + plan->fragments / 2) * sizeof(struct span_data) : pixels * 12);
+    if (w->readback.buffer.size > plan->staging)
+        gl_readback_free(&w->readback);
+    m->budget = budget;
+    m->peak = m->used;
 }
 
 bool gl_work_prepare(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
                      bool spans, struct error *err)
 {
-    struct gl_memory *m = w->memory;
+    struct gl_memory *m = w->memory, *model = w->model;
+    const struct gl_plan *p = &w->plan;
     size_t leaves = scene->leaf_count, pixels = pixels_of(f);
     return gl_buffer_grow(&w->frame, m, "frame", sizeof *f, err) &&
            gl_buffer_grow(&w->counters, m, "counters", sizeof(struct counters), err) &&
-           gl_buffer_grow(&w->views, m, "views", leaves * sizeof(struct leaf_view), err) &&
-           gl_buffer_grow(&w->starts, m, "starts", (leaves + 1) * 4, err) &&
-           gl_buffer_grow(&w->counts, m, "counts", (leaves + 1) * 4, err) &&
-           gl_buffer_grow(&w->large, m, "large", LARGE_PIECES * 16, err) &&
+           gl_buffer_grow(&w->bins, m, "bins", BINS * 4, err) &&
+           gl_buffer_grow(&w->views, model, "views", leaves * sizeof(struct leaf_view), err) &&
+           gl_buffer_grow(&w->starts, model, "starts", (leaves + 1) * 4, err) &&
+           gl_buffer_grow(&w->counts, model, "counts", (leaves + 1) * 4, err) &&
+           gl_work_pieces(w, p->pieces < LARGE_PIECES ? p->pieces : LARGE_PIECES, err) &&
            gl_buffer_grow(&w->pixel_counts, m, "pixel counts", (pixels + 1) * 4, err) &&
            gl_buffer_grow(&w->offsets, m, "offsets", (pixels + 1) * 4, err) &&
            gl_buffer_grow(&w->states, m, "states", pixels * sizeof(struct pixel_state), err) &&
            gl_buffer_grow(&w->pending[0], m, "pending", pixels * 4, err) &&
            gl_buffer_grow(&w->pending[1], m, "pending", pixels * 4, err) &&
-           gl_buffer_grow(&w->misses, m, "misses", MISS_WORDS * 4, err) &&
-           gl_buffer_grow(&w->claims, m, "claims", CLAIMS * 4, err) &&
+           gl_buffer_grow(&w->misses, m, "misses", (size_t)p->miss_words * 4, err) &&
+           gl_buffer_grow(&w->claims, m, "claims", (size_t)p->claims * 4, err) &&
            (spans ? gl_buffer_grow(&w->span_counts, m, "span counts", pixels * 4, err)
                   : gl_buffer_grow(&w->output, m, "output", pixels * 12, err));
 }
@@ -58,14 +99,31 @@ static void barrier_for_copies(void)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-const void *gl_work_read(struct gl_work *w, const struct gl_buffer *from, size_t size,
-                         struct error *err)
+bool gl_work_read(struct gl_work *w, const struct gl_buffer *from, size_t offset, void *out,
+                  size_t size, struct error *err)
 {
     barrier_for_copies();
-    gl_timer_begin(&w->timers, "readback");
-    bool begun = gl_readback_start(&w->readback, w->memory, "readback", from, 0, size, err);
-    gl_timer_end(&w->timers);
-    return begun ? gl_readback_wait(&w->readback, err) : NULL;
+    for (size_t at = 0, step; at < size; at += step) {
+        step = size - at < w->plan.staging ? size - at : w->plan.staging;
+        const void *now = NULL;
+        gl_timer_begin(&w->timers, "readback");
+        bool begun =
+            gl_readback_start(&w->readback, w->memory, "readback", from, offset + at, step, err);
+        gl_timer_end(&w->timers);
+        if (begun)
+            now = gl_readback_wait(&w->readback, err);
+        if (!now)
+            return false;
+        memcpy((char *)out + at, now, step);
+    }
+    return true;
+}
+
+bool gl_work_pieces(struct gl_work *w, uint32_t pieces, struct error *err)
+{
+    size_t most = (size_t)w->plan.pieces * 16;
+    return gl_buffer_grow(&w->large, w->memory, "large", with_reserve((size_t)pieces * 16, most),
+                          err);
 }
 
 static bool use(struct gl_work *w, const char *name, const char *defines, struct error *err)
@@ -166,7 +224,8 @@ static bool scan(struct gl_work *w, const struct gl_buffer *from, const struct g
     return fine;
 }
 
-static void bind_triangles(const struct gl_work *w, const struct gl_scene *scene)
+static void bind_triangles(const struct gl_work *w, const struct gl_scene *scene,
+                           const struct gl_buffer *counts)
 {
     bind_frame(w, scene);
     gl_buffer_bind(&w->views, BIND_VIEWS);
@@ -175,17 +234,17 @@ static void bind_triangles(const struct gl_work *w, const struct gl_scene *scene
     gl_buffer_bind(&scene->planes, BIND_PLANES);
     gl_buffer_bind(&w->starts, BIND_STARTS);
     gl_buffer_bind(&w->large, BIND_LARGE);
-    gl_buffer_bind(&w->pixel_counts, BIND_COUNTS);
+    gl_buffer_bind(counts, BIND_COUNTS);
     gl_buffer_bind(&w->offsets, BIND_OFFSETS);
     gl_buffer_bind(&w->fragments, BIND_FRAGMENTS);
     gl_buffer_bind(&w->states, BIND_STATES);
 }
 
 // Takes all triangles, then all pieces of large ones; `define` says what for.
-static bool draw(struct gl_work *w, const struct gl_scene *scene, const char *pass,
-                 const char *define, const char *define_pieces, struct error *err)
+static bool draw(struct gl_work *w, const struct gl_scene *scene, const struct gl_buffer *counts,
+                 const char *pass, const char *define, const char *define_pieces, struct error *err)
 {
-    bind_triangles(w, scene);
+    bind_triangles(w, scene, counts);
     gl_timer_begin(&w->timers, pass);
     bool fine = take(w, "arguments", "TRIANGLES", 1, err) &&
                 take_counted(w, "fragments", define, err) && take(w, "arguments", "", 1, err) &&
@@ -209,40 +268,52 @@ bool gl_work_count(struct gl_work *w, const struct gl_scene *scene, struct frame
                    uint32_t *fragments, uint32_t *pieces, struct error *err)
 {
     size_t pixels = pixels_of(f);
-    const uint32_t none = 0;
+    static const uint32_t none;
     f->large_most = (uint32_t)(w->large.size / 16);
-    f->miss_most = MISS_WORDS;
     f->windings = scene->windings;
     gl_buffer_write(&w->frame, 0, f, sizeof *f);
     if (!select_leaves(w, scene, err))
         return false;
     gl_buffer_write(&w->counters, offsetof(struct counters, large), &none, 4);
+    gl_buffer_write(&w->counters, offsetof(struct counters, wrapped), &none, 4);
     gl_buffer_fill(&w->pixel_counts, 0, (pixels + 1) * 4, 0);
     // A buffer of any size: nothing is written to it.
     if (!gl_buffer_grow(&w->fragments, w->memory, "fragments", sizeof(struct fragment), err) ||
-        !draw(w, scene, "count", "COUNT", "COUNT PIECES", err) ||
+        !draw(w, scene, &w->pixel_counts, "count", "COUNT", "COUNT PIECES", err) ||
         !scan(w, &w->pixel_counts, &w->offsets, pixels + 1, err))
         return false;
     barrier_for_copies();
     gl_buffer_copy(&w->offsets, pixels * 4, &w->counters, offsetof(struct counters, fragments), 4);
-    const struct counters *c = gl_work_read(w, &w->counters, sizeof *c, err);
-    if (!c)
+    struct counters c;
+    if (!gl_work_read(w, &w->counters, 0, &c, sizeof c, err))
         return false;
-    *fragments = c->fragments;
-    *pieces = c->large;
+    *fragments = c.fragments;
+    *pieces = c.wrapped ? UINT32_MAX : c.large;
     return true;
+}
+
+bool gl_work_histogram(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
+                       float from, float to, uint32_t bins[BINS], struct error *err)
+{
+    f->bins_from = from;
+    f->bins_each = (float)(BINS / ((double)to - (double)from));
+    gl_buffer_write(&w->frame, 0, f, sizeof *f);
+    gl_buffer_fill(&w->bins, 0, BINS * 4, 0);
+    return draw(w, scene, &w->bins, "histogram", "HISTOGRAM", "HISTOGRAM PIECES", err) &&
+           gl_work_read(w, &w->bins, 0, bins, BINS * 4, err);
 }
 
 bool gl_work_scatter(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
                      uint32_t fragments, bool spans, struct error *err)
 {
-    size_t places = fragments / 2 + pixels_of(f); // a ray of n crossings has n / 2 + 1 at most
+    size_t room = with_reserve(fragments, w->plan.fragments);
+    size_t places = room / 2 + pixels_of(f); // a ray of n crossings has n / 2 + 1 at most
     if (spans &&
         !gl_buffer_grow(&w->output, w->memory, "output", places * sizeof(struct span_data), err))
         return false;
-    return gl_buffer_grow(&w->fragments, w->memory, "fragments",
-                          (size_t)fragments * sizeof(struct fragment), err) &&
-           draw(w, scene, "scatter", "SCATTER", "SCATTER PIECES", err);
+    return gl_buffer_grow(&w->fragments, w->memory, "fragments", room * sizeof(struct fragment),
+                          err) &&
+           draw(w, scene, &w->pixel_counts, "scatter", "SCATTER", "SCATTER PIECES", err);
 }
 
 static void bind_walk(const struct gl_work *w, const struct gl_scene *scene,
@@ -276,7 +347,7 @@ static bool walk(struct gl_work *w, const struct gl_scene *scene, const struct f
     char defines[sizeof w->array->defines + 16];
     gl_buffer_write(&w->frame, 0, f, sizeof *f);
     gl_buffer_write(&w->counters, offsetof(struct counters, missed), none, sizeof none);
-    gl_buffer_fill(&w->claims, 0, CLAIMS * 4, 0);
+    gl_buffer_fill(&w->claims, 0, (size_t)w->plan.claims * 4, 0);
     bind_walk(w, scene, table, spans);
     snprintf(defines, sizeof defines, "%s %s", spans ? "SPANS" : "SURFACE",
              w->array ? w->array->defines : "");
@@ -286,20 +357,19 @@ static bool walk(struct gl_work *w, const struct gl_scene *scene, const struct f
     gl_timer_end(&w->timers);
     if (!fine)
         return false;
-    const struct counters *now = gl_work_read(w, &w->counters, sizeof *c, err);
-    if (now)
-        *c = *now;
-    return now;
+    return gl_work_read(w, &w->counters, 0, c, sizeof *c, err);
 }
 
 // Evaluates what a round of walks has put on record; *found: how much of it is new.
 static bool learn(struct gl_work *w, const struct body *body, const struct counters *c,
                   uint32_t *found, struct error *err)
 {
-    size_t words = c->misses < MISS_WORDS ? c->misses : MISS_WORDS;
-    const uint32_t *records = gl_work_read(w, &w->misses, (words ? words : 1) * 4, err);
-    *found = records ? gl_discover(body, records, words) : 0;
-    return records;
+    size_t words = c->misses < w->plan.miss_words ? c->misses : w->plan.miss_words;
+    uint32_t *records = mem_alloc((words + 1) * sizeof *records);
+    bool fine = gl_work_read(w, &w->misses, 0, records, words * 4, err);
+    *found = fine ? gl_discover(body, records, words) : 0;
+    free(records);
+    return fine;
 }
 
 bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
@@ -309,10 +379,13 @@ bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct fra
     struct counters c = {.resume = UINT32_MAX};
     gl_buffer_write(&w->counters, 0, &c, sizeof c);
     f->pending = 0;
+    f->ahead = AHEAD;
+    f->miss_most = w->plan.miss_words;
+    f->claim_mask = w->plan.claims - 1;
     *stuck = 0;
     for (;;) {
         gl_timer_begin(&w->timers, "upload");
-        bool there = gl_table_upload(table, w->memory, body->table, err);
+        bool there = gl_table_upload(table, w->model, body->table, err);
         gl_timer_end(&w->timers);
         if (!there)
             return false;
@@ -332,10 +405,16 @@ bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct fra
         struct render_pass pass = {"discover", clock_seconds() - begun, 1};
         render_stats_pass(stats, &pass);
         stats->misses += found;
-        if (!found) {
+        bool full = c.misses > w->plan.miss_words;
+        if (!found && full && f->ahead == 1) {
+            error_set(err, "records of unknown combinations need more memory than there is");
+            return false;
+        }
+        if (!found && !full) {
             *stuck = c.missed;
             break;
         }
+        f->ahead = found ? AHEAD : 1; // what the first ones go on from may have had no room
     }
     discovery_settle(body->table);
     stats->open_rays += c.open;

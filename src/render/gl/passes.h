@@ -3,21 +3,24 @@
 #include "render/gl/array.h"
 #include "render/gl/discover.h"
 #include "render/gl/frame.h"
+#include "render/gl/plan.h"
 #include "render/gl/program.h"
 #include "render/gl/readback.h"
 #include "render/gl/scene.h"
 #include "render/gl/timer.h"
 
-// Buffers of a frame. All are kept from frame to frame and grow as needed.
+// Buffers of a frame. All are kept from frame to frame and grow as needed, as far as planned.
 struct gl_work {
-    struct gl_memory *memory;
+    struct gl_memory *memory; // account of what follows from the picture
+    struct gl_memory *model;  // and of what has as many entries as the body
+    struct gl_plan plan;
     struct gl_programs *programs;
     struct gl_buffer frame, counters;
     struct gl_buffer views, starts, counts; // per leaf; counts of a select serve the scan only
     struct gl_buffer large;
     struct gl_buffer pixel_counts, offsets, states, output, span_counts;
     struct gl_buffer pending[2], misses, claims;
-    struct gl_buffer fragments;
+    struct gl_buffer fragments, bins;
     struct gl_buffer sums[3]; // of the blocks of a scan
     struct gl_readback readback;
     struct gl_timers timers;      // of the passes of a picture
@@ -26,11 +29,14 @@ struct gl_work {
 
 void gl_work_free(struct gl_work *w);
 
-// The first bytes of a buffer, valid until the next read. NULL when the context is lost.
-const void *gl_work_read(struct gl_work *w, const struct gl_buffer *from, size_t size,
-                         struct error *err);
+// Gives back what is larger than the plan for a picture of `budget` bytes allows.
+void gl_work_begin(struct gl_work *w, const struct gl_plan *plan, size_t budget, bool spans);
 
-// The others return false when the driver has no room or cannot compile.
+// The others return false when there is no room, or when the driver cannot compile or was reset.
+
+// Part of a buffer; what it holds from `offset` on goes to `out`, in as many steps as planned.
+bool gl_work_read(struct gl_work *w, const struct gl_buffer *from, size_t offset, void *out,
+                  size_t size, struct error *err);
 
 // Room for everything that belongs to leaves and pixels of a band of `rows` rows.
 bool gl_work_prepare(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
@@ -38,9 +44,15 @@ bool gl_work_prepare(struct gl_work *w, const struct gl_scene *scene, const stru
 // How each leaf shows in the picture.
 bool gl_work_views(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
                    struct error *err);
-// Counts the crossings of a band and slab; *pieces: what of large triangles has no room.
+// Counts the crossings of a band and slab; *pieces: of large triangles. When these are more than
+// f->large_most the count means nothing. UINT32_MAX: so many or more.
 bool gl_work_count(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
                    uint32_t *fragments, uint32_t *pieces, struct error *err);
+// Room for so many pieces of large triangles.
+bool gl_work_pieces(struct gl_work *w, uint32_t pieces, struct error *err);
+// How many of the crossings that were counted lie in each of BINS parts of the keys [from, to].
+bool gl_work_histogram(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
+                       float from, float to, uint32_t bins[BINS], struct error *err);
 // Makes the crossings that were counted.
 bool gl_work_scatter(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
                      uint32_t fragments, bool spans, struct error *err);

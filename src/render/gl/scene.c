@@ -43,10 +43,13 @@ static uint32_t winding_flags(const struct solid *s)
     return mesh_is_never_inside_out(&s->mesh) ? 0 : LEAF_WINDING;
 }
 
+// False when numbers of the shaders cannot count them: a fragment holds twice the number of its
+// leaf, and the crossings of a ray are below 2^32 as long as those triangles are below 2^31, each
+// of which may also be begun by the ray (fragments.comp.glsl).
 static bool list_solids(struct catalogue *c, const struct body *body)
 {
     struct solid_of_leaf *all = mem_alloc((body->leaf_count + 1) * sizeof *all);
-    uint64_t vertices = 0, triangles = 0;
+    uint64_t vertices = 0, triangles = 0, placed = 0;
     c->entries = mem_alloc((body->leaf_count + 1) * sizeof *c->entries);
     c->entry_of_leaf = mem_alloc((body->leaf_count + 1) * sizeof *c->entry_of_leaf);
     for (uint32_t i = 0; i < body->leaf_count; i++)
@@ -54,6 +57,7 @@ static bool list_solids(struct catalogue *c, const struct body *body)
     qsort(all, body->leaf_count, sizeof *all, compare_solids);
     for (uint32_t i = 0; i < body->leaf_count; i++) {
         const struct solid *s = all[i].solid;
+        placed += s->mesh.triangle_count;
         if (!i || s != all[i - 1].solid) {
             c->entries[c->count++] =
                 (struct entry){s, (uint32_t)vertices, (uint32_t)triangles, winding_flags(s)};
@@ -65,7 +69,8 @@ static bool list_solids(struct catalogue *c, const struct body *body)
     free(all);
     c->vertices = (uint32_t)vertices;
     c->triangles = (uint32_t)triangles;
-    return vertices <= UINT32_MAX / 3 && triangles <= FRAGMENT_TRIANGLE;
+    return vertices <= UINT32_MAX / 3 && triangles <= FRAGMENT_TRIANGLE && placed <= INT32_MAX &&
+           body->leaf_count <= INT32_MAX;
 }
 
 static void catalogue_free(struct catalogue *c)
@@ -206,7 +211,7 @@ bool gl_scene_upload(struct gl_scene *s, struct gl_memory *memory, const struct 
     struct catalogue c = {0};
     bool fine = list_solids(&c, body);
     if (!fine)
-        error_set(err, "the model has too many triangles for the gl device");
+        error_set(err, "the model has more triangles than the gl device can count");
     fine = fine && upload_solids(s, memory, &c, err) && upload_leaves(s, memory, &c, body, err);
     catalogue_free(&c);
     return fine;
