@@ -1,5 +1,6 @@
 // bench_main.c - hcsg-bench: frame times on the scenes of scenes.txt, beside OpenCSG's.
 #include "base/mem.h"
+#include "curves.h"
 #include "measure.h"
 #include "program.h"
 #include "report.h"
@@ -11,7 +12,7 @@
 
 static struct {
     const char *list, *scenes, *output, *pictures, *device;
-    bool opencsg, process, unshared;
+    bool opencsg, process, unshared, curves;
     uint32_t frames, threads, size;
     double limit;
 } given = {.list = HCSG_BENCH_LIST,
@@ -38,6 +39,10 @@ static const struct option options[] = {
     {"opencsg", 0, OPTION_FLAG, NULL, "measure OpenCSG too, scene by scene", &given.opencsg, 0, 0},
     {"unshared", 0, OPTION_FLAG, NULL, "give each primitive a value of its own", &given.unshared, 0,
      0},
+    {"curves", 0, OPTION_FLAG, NULL,
+     "write times of all intervals by the side of the picture, 256 to\n"
+     "8192, to --output instead: for bench/plot",
+     &given.curves, 0, 0},
     {"process", 0, OPTION_FLAG, NULL,
      "the operands are .csg files: time whole runs of hcsg-render and openscad", &given.process, 0,
      0},
@@ -94,7 +99,7 @@ static bool names_are_known(const struct scenes *scenes, char **names, int count
     return true;
 }
 
-static bool bench_scene(struct result *r, struct error *err)
+static bool bench_scene(FILE *tsv, struct result *r, struct error *err)
 {
     char csg[4096], opencsg[4096];
     snprintf(csg, sizeof csg, "%s/%s.csg", given.scenes, r->scene->name);
@@ -106,7 +111,11 @@ static bool bench_scene(struct result *r, struct error *err)
                                    .unshared = given.unshared,
                                    .pictures = given.pictures};
     fprintf(stderr, "%s: %s\n", program.name, r->scene->name);
-    if (!device_wish_parse(&ours.gl, given.device, err) || !measure_scene(r, csg, &ours, err))
+    if (!device_wish_parse(&ours.gl, given.device, err))
+        return false;
+    if (given.curves)
+        return curves_measure(tsv, r->scene->name, csg, &ours, err);
+    if (!measure_scene(r, csg, &ours, err))
         return false;
     const struct opponent_options theirs = {.program = opencsg,
                                             .size = given.size,
@@ -114,7 +123,10 @@ static bool bench_scene(struct result *r, struct error *err)
                                             .limit = given.limit,
                                             .pictures = given.pictures};
     bool drawable = r->scene->at_least > 0;
-    return !given.opencsg || !drawable || opponent_measure(r, csg, &theirs, err);
+    bool ok = !given.opencsg || !drawable || opponent_measure(r, csg, &theirs, err);
+    if (ok && tsv)
+        report_rows(tsv, r);
+    return ok;
 }
 
 static bool bench_scenes(FILE *tsv, char **names, int count, struct error *err)
@@ -130,11 +142,9 @@ static bool bench_scenes(FILE *tsv, char **names, int count, struct error *err)
             continue;
         struct result *r = &results[done++];
         r->scene = &scenes.items[i];
-        ok = bench_scene(r, err);
-        if (ok && tsv)
-            report_rows(tsv, r);
+        ok = bench_scene(tsv, r, err);
     }
-    if (ok)
+    if (ok && !given.curves)
         report_tables(stdout, results, done);
     for (uint32_t i = 0; i < done; i++)
         result_free(&results[i]);
@@ -167,6 +177,10 @@ static bool bench_processes(FILE *tsv, char **files, int count, struct error *er
 static bool run(char **operands, int count, struct error *err)
 {
     FILE *tsv = NULL;
+    if (given.curves && !given.output) {
+        error_set(err, "--curves needs --output");
+        return false;
+    }
     if (given.output) {
         tsv = fopen(given.output, given.process ? "a" : "w");
         if (!tsv) {

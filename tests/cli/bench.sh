@@ -10,7 +10,7 @@ touch none/libEGL.so.1
 "$source/bench/scenes/instanced" scenes/x.csg size=3 2>stderr && fault 'a wrong parameter'
 printf 'less instanced 0 0\nmore instanced 0 0\n' >list
 measure() {
-    "$bench" --list=list --scenes=scenes --size=32 --frames=1 --limit=0.01 --threads=2 "$@"
+    "$bench" --list=list --scenes=scenes --size=32 --frames=1 --limit=0.0001 --threads=2 "$@"
 }
 
 LD_LIBRARY_PATH=none measure -o out.tsv >tables 2>stderr || fault "$(cat stderr)"
@@ -24,4 +24,16 @@ measure --device=cpu less >tables 2>stderr || fault "$(cat stderr)"
 ! measure --device=gpu less >tables 2>stderr || fault 'no such device'
 grep -qx "hcsg-bench: --device: expected auto, cpu or gl, got 'gpu'" stderr ||
     fault "wrong device: $(cat stderr)"
+
+# Each frame takes longer than the limit: one size.
+measure --curves --device=cpu -o curves.tsv less >tables 2>stderr || fault "$(cat stderr)"
+[ ! -s tables ] && [ "$(cut -f 1,2,5 curves.tsv | tail -n +2)" = 'less	curve_cpu_256_ms	1' ] ||
+    fault "curves: $(cat curves.tsv)"
+! measure --curves less 2>stderr || fault 'curves to nowhere'
+grep -qx 'hcsg-bench: --curves needs --output' stderr || fault "curves: $(cat stderr)"
+command -v python3 >/dev/null || exit $failed
+printf 'less\tcurve_cpu_512_ms\t40\t40\t1\nless\tcurve_gl_256_ms\t2\t2\t1\n' >>curves.tsv
+"$source/bench/plot" curves.tsv . >/dev/null || fault 'plot'
+[ "$(grep -c '<polyline' curve-less.svg)" = 2 ] && [ "$(grep -c '<circle' curve-less.svg)" = 3 ] &&
+    grep -q '>512</text>' curve-less.svg || fault "plot: $(cat curve-less.svg)"
 exit $failed
