@@ -10,7 +10,10 @@ enum { SIDE_LEAST = 256, SIDE_MOST = 8192, FRAMES = 3 };
 static const struct way {
     const char *name;
     enum walk walk;
-} ways_gl[] = {{"gl", WALK_AUTO}, {"glarray", WALK_ARRAY}}, way_cpu = {"cpu", WALK_AUTO};
+    uint32_t slabs;
+} ways_gl[] = {{"gl1", WALK_AUTO, 1}, {"gl2", WALK_AUTO, 2}, {"gl3", WALK_AUTO, 3},
+               {"gl4", WALK_AUTO, 4}, {"gl5", WALK_AUTO, 5}, {"glarray", WALK_ARRAY, 1}},
+  way_cpu = {"cpu", WALK_AUTO, 0};
 
 static double frame_ms(struct stage *s, struct device *device, uint32_t view)
 {
@@ -25,6 +28,7 @@ static void follow(FILE *tsv, const char *scene, struct stage *s, struct device 
 {
     double ms = 0;
     s->settings.walk = way->walk;
+    s->settings.slabs = way->slabs;
     for (s->size = SIDE_LEAST; s->size <= SIDE_MOST && ms < limit * 1e3; s->size *= 2) {
         struct samples frames = {0};
         ms = frame_ms(s, device, 0); // compiles, finds combinations

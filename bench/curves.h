@@ -4,8 +4,8 @@
 
 #include <stdio.h>
 
-// Rows "scene curve_WAY_SIZE_ms median min n", where a way is cpu, gl or glarray. A way ends with
-// the size at which a frame takes longer than the limit. False when there is no device, or it
-// fails.
+// Rows "scene curve_WAY_SIZE_ms median min n", where a way is cpu, gl1 to gl5, which are
+// numbers of slabs, or glarray. A way ends with the size at which a frame takes longer than the
+// limit. False when there is no device, or it fails.
 bool curves_measure(FILE *tsv, const char *scene, const char *csg,
                     const struct measure_options *options, struct error *err);

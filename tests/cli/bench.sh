@@ -32,7 +32,7 @@ measure --curves --device=cpu -o curves.tsv less >tables 2>stderr || fault "$(ca
 ! measure --curves less 2>stderr || fault 'curves to nowhere'
 grep -qx 'hcsg-bench: --curves needs --output' stderr || fault "curves: $(cat stderr)"
 command -v python3 >/dev/null || exit $failed
-printf 'less\tcurve_cpu_512_ms\t40\t40\t1\nless\tcurve_gl_256_ms\t2\t2\t1\n' >>curves.tsv
+printf 'less\tcurve_cpu_512_ms\t40\t40\t1\nless\tcurve_gl3_256_ms\t2\t2\t1\n' >>curves.tsv
 "$source/bench/plot" curves.tsv . >/dev/null || fault 'plot'
 [ "$(grep -c '<polyline' curve-less.svg)" = 2 ] && [ "$(grep -c '<circle' curve-less.svg)" = 3 ] &&
     grep -q '>512</text>' curve-less.svg || fault "plot: $(cat curve-less.svg)"
