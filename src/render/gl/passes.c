@@ -417,7 +417,7 @@ bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct fra
         f->ahead = found ? AHEAD : 1; // what the first ones go on from may have had no room
     }
     discovery_settle(body->table);
-    stats->open_rays += c.open;
+    stats->open_rays += f->slab_first ? c.open : 0; // each slab sees all of a ray that may be open
     *alive = c.alive;
     return true;
 }
