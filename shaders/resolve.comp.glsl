@@ -314,9 +314,9 @@ void drop_turns()
     mark_turn(best_next, false);
 }
 
-// Of the crossings of the cluster that make the state `solid`, the one that does: taken one by one
-// they may turn it several times, for there are thin intervals between. The thinnest go first.
-uint turning_point(bool solid)
+// Marks the crossings that turn the state, which is `solid` behind the cluster, when they are taken
+// one by one. Returns how many; 0 when the last of them leaves it otherwise.
+uint find_turns(bool solid)
 {
     uvec2 key = before;
     bool now = !solid;
@@ -334,14 +334,39 @@ uint turning_point(bool solid)
         now = now != turned;
         turns += uint(turned);
     }
-    if (now != solid)
+    return now == solid ? turns : 0;
+}
+
+// Would the state be another one without crossing i, or is it the same with it alone?
+bool matters(uint i, bool solid)
+{
+    return solid_with(SUBSET_REST, i) != solid || solid_with(SUBSET_ALONE, i) == solid;
+}
+
+// Of the crossings of the cluster that make the state `solid`, the one that does: taken one by one
+// they may turn it several times, for there are thin intervals between. The thinnest go first, and
+// one that does not matter gives way to one that does.
+uint turning_point(bool solid)
+{
+    uint most = find_turns(solid), found = from;
+    if (most == 0)
         return to;
-    for (; turns > 1; turns -= 2)
+    for (uint turns = most; turns > 1; turns -= 2)
         drop_turns();
-    for (uint i = from; i < to; i++)
-        if (is_turn(i))
+    while (!is_turn(found))
+        found++;
+    if (most == 1 || matters(found, solid))
+        return found;
+    find_turns(solid);
+    bool makes = true;
+    for (uint i = from; i < to; i++) {
+        if (!is_turn(i))
+            continue;
+        if (makes && matters(i, solid))
             return i;
-    return to;
+        makes = !makes;
+    }
+    return found;
 }
 
 // Whether the leaf of crossing i shows rather than that of `best`, where the place wants leaves of
@@ -354,7 +379,7 @@ bool shows_before(uint i, uint best, uint cut)
     return cut == 2 || wanted == has ? a > b : wanted;
 }
 
-// Of the crossings at one place, the one whose surface shows there: owner_of in walk.c.
+// Of the crossings at one place, the one whose surface shows there: cluster_owner in cluster.c.
 uint owner_of(bool solid)
 {
     if (to - from == 1)
@@ -363,7 +388,7 @@ uint owner_of(bool solid)
     if (turning == to)
         return from;
     uint best = turning;
-    bool weak = is_paired(turning);
+    bool weak = is_paired(turning) || !matters(turning, solid);
     uint cut = frame.borders != 0 ? uint(!solid_with(SUBSET_ENTER, 0)) : 2;
     for (uint i = from; i < to; i++) {
         if (i == turning || (!weak && !shows_before(i, best, cut)) || is_border(i) ||
@@ -371,7 +396,7 @@ uint owner_of(bool solid)
             continue;
         if (at(i).key != at(turning).key && !coplanar(at(i), at(turning)))
             continue;
-        if (solid_with(SUBSET_REST, i) == solid && solid_with(SUBSET_ALONE, i) != solid)
+        if (!matters(i, solid))
             continue;
         best = i;
         weak = false;

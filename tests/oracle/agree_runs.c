@@ -16,13 +16,11 @@ static double share(uint64_t others, uint64_t pixels)
     return pixels ? 100.0 * (double)(pixels - others) / (double)pixels : 100;
 }
 
-// Of several faces in one place the two ways of the processor name different ones, so that leaves
-// may only differ there. Where pixels lie on faces seen edge-on, silhouettes are everywhere, and
-// either face is right.
-static bool agrees(const struct agreement *a, double tolerance, bool aligned, bool strict)
+// Where pixels lie on faces seen edge-on, silhouettes are everywhere, and either face is right.
+static bool agrees(const struct agreement *a, double tolerance, bool aligned)
 {
     double wanted = aligned ? 98 : 99.99;
-    return share(strict ? a->surface.others : a->surface.apart, a->pixels) >= wanted &&
+    return share(a->surface.others, a->pixels) >= wanted &&
            share(a->spans.others, a->pixels) >= wanted &&
            (aligned || fmax(a->surface.depth, a->spans.depth) <= tolerance);
 }
@@ -119,7 +117,7 @@ int agree_random(const struct options *options)
         char name[64];
         snprintf(name, sizeof name, "--count 1 --seed %llu", (unsigned long long)options->seed + i);
         agree_add(&sum[o->aligned], &o->agreement);
-        if (!agrees(&o->agreement, 2e-3, o->aligned, options->gl) && strange++ < SHOWN)
+        if (!agrees(&o->agreement, 2e-3, o->aligned) && strange++ < SHOWN)
             print_agreement(name, &o->agreement);
     }
     free(trees.outcomes);
@@ -127,9 +125,7 @@ int agree_random(const struct options *options)
            (unsigned long long)options->seed, strange);
     print_agreement("generic", &sum[0]);
     print_agreement("pixels on faces seen edge-on", &sum[1]);
-    return agrees(&sum[0], 2e-3, false, options->gl) && agrees(&sum[1], 2e-3, true, options->gl)
-               ? 0
-               : 1;
+    return agrees(&sum[0], 2e-3, false) && agrees(&sum[1], 2e-3, true) ? 0 : 1;
 }
 
 struct file_sides {
@@ -144,7 +140,7 @@ static void compare_side(void *context, const struct side *side)
     struct agreement a;
     compare(&a, f->first, f->second, side, f->options, true);
     print_agreement(side->name, &a);
-    f->strange += !agrees(&a, side->tolerance, side->aligned, f->options->gl);
+    f->strange += !agrees(&a, side->tolerance, side->aligned);
 }
 
 int agree_file(const struct options *options)

@@ -109,6 +109,17 @@ static void several_parts_share_a_plane(void **state)
     expect_leaf("union(){intersection(){" BLOCK(-3, 3) BLOCK(-2, 2) "}" BLOCK(-1, 1) "}", 2);
 }
 
+// Where a cut begins with what it cuts, nothing shows of that, unless it shares the plane of others
+// and is a later one.
+static void what_is_cut_at_once_does_not_hide_others(void **state)
+{
+    (void)state;
+    // leaf 1 is inside of leaf 2, which ends here, and leaf 3 begins
+    expect_leaf("union(){" BLOCK(-3, 3) "difference(){" BLOCK(-9, 9) BLOCK(0, 5) BLOCK(-6, 6) "}}",
+                0);
+    expect_leaf("union(){" BLOCK(-3, 3) "difference(){" BLOCK(-9, 9) BLOCK(-6, 6) "}}", 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -116,6 +127,7 @@ int main(void)
         cmocka_unit_test(a_cut_ends_where_a_solid_begins),
         cmocka_unit_test(what_begins_inside_does_not_count),
         cmocka_unit_test(several_parts_share_a_plane),
+        cmocka_unit_test(what_is_cut_at_once_does_not_hide_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -165,12 +165,20 @@ static uint32_t find_turns(const struct cluster *c, bool solid)
     return now == solid ? turns : 0;
 }
 
+// Does crossing i matter: would the state be another one without it, or is it the same with it
+// alone?
+static bool matters(const struct cluster *c, uint32_t i, bool solid)
+{
+    return solid_if(c, i, false) != solid || solid_if(c, i, true) == solid;
+}
+
 // The crossing that makes the state `solid`: taken one by one they may turn it several times, for
 // there are thin intervals between. The thinnest go first, since some are only where two leaves
-// touch. c->to when none turns it.
+// touch. One that does not matter gives way to one that does: in which order crossings at one place
+// come says nothing. c->to when none turns it.
 static uint32_t turning_point(const struct cluster *c, bool solid)
 {
-    uint32_t count = find_turns(c, solid);
+    uint32_t count = find_turns(c, solid), all = count;
     uint32_t *turn = c->room->turns;
     while (count > 1) {
         uint32_t least = 0;
@@ -185,7 +193,16 @@ static uint32_t turning_point(const struct cluster *c, bool solid)
         count -= 2;
         memmove(turn + least, turn + least + 2, (count - least) * sizeof *turn);
     }
-    return count ? turn[0] : c->to;
+    if (!count)
+        return c->to;
+    uint32_t found = turn[0];
+    if (all == 1 || matters(c, found, solid))
+        return found;
+    find_turns(c, solid);
+    for (uint32_t k = 0; k < all; k += 2)
+        if (matters(c, turn[k], solid))
+            return turn[k];
+    return found;
 }
 
 static struct face_at face_of(const struct cluster *c, crossing i)
@@ -211,24 +228,24 @@ static bool in_one_plane(const struct cluster *c, crossing a, crossing b)
 
 // Of those in one plane with the one that turns the state, it is the latest of the file that
 // matters, because the state would be another one without it, or with it alone. A leaf too thin to
-// show gives way to any of these. Of geometry it is a cut face where the place is not solid with
-// all borders.
+// show and one that does not matter give way to any of these. Of geometry it is a cut face where
+// the place is not solid with all borders.
 static crossing owner_of(const struct cluster *c, bool solid)
 {
     find_borders(c);
+    array_reserve(&c->room->kept, &c->room->kept_capacity, c->to - c->from);
     uint32_t turning = turning_point(c, solid);
     if (turning == c->to)
         return c->items[c->from];
-    array_reserve(&c->room->kept, &c->room->kept_capacity, c->to - c->from);
     crossing turn = c->items[turning], best = turn;
-    bool weak = is_paired(c, turning);
+    bool weak = is_paired(c, turning) || !matters(c, turning, solid);
     int cut = c->behind->t->frame->body->borders ? !solid_closed(c) : 2;
     for (uint32_t i = c->from; i < c->to; i++) {
         crossing one = c->items[i];
         if (i == turning || (!weak && !goes_before(c, one, best, cut)) ||
             c->room->border[i - c->from] || is_paired(c, i) || !in_one_plane(c, one, turn))
             continue;
-        if (solid_if(c, i, false) == solid && solid_if(c, i, true) != solid)
+        if (!matters(c, i, solid))
             continue;
         best = one;
         weak = false;

@@ -30,12 +30,17 @@ static void sort(crossing *items, crossing *spare, uint32_t n)
     }
 }
 
+static uint32_t leaf_number(struct leaf_range leaves, uint32_t i)
+{
+    return leaves.among ? leaves.among[i] : leaves.first + i;
+}
+
 uint64_t crossings_count(struct tile *t, struct leaf_range leaves, uint32_t *counts)
 {
     uint64_t sum = 0;
     memset(counts, 0, BLOCK_PIXELS * sizeof *counts);
     for (uint32_t i = 0; i < leaves.count; i++) {
-        const struct block_leaf *b = tile_crossings(t, &t->leaves[leaves.first + i]);
+        const struct block_leaf *b = tile_crossings(t, &t->leaves[leaf_number(leaves, i)]);
         if (!b)
             continue;
         for (int p = 0; p < BLOCK_PIXELS; p++)
@@ -52,7 +57,7 @@ void crossings_fill(struct tile *t, struct leaf_range leaves, int from, int to, 
                     uint32_t *in, uint32_t *out)
 {
     for (uint32_t i = 0; i < leaves.count; i++) {
-        uint32_t l = leaves.first + i;
+        uint32_t l = leaf_number(leaves, i);
         const struct block_leaf *b = tile_crossings(t, &t->leaves[l]);
         if (!b)
             continue;
@@ -109,7 +114,7 @@ uint32_t crossings_nearest(struct tile *t, struct leaf_range leaves, int p, cros
     uint32_t n = 0;
     *ceiling = UINT64_MAX;
     for (uint32_t i = 0; i < leaves.count; i++) {
-        uint32_t l = leaves.first + i;
+        uint32_t l = leaf_number(leaves, i);
         const struct block_leaf *b = tile_crossings(t, &t->leaves[l]);
         if (!b)
             continue;

@@ -19,6 +19,7 @@ struct crossing_list {
 
 struct leaf_range { // of tile.leaves
     uint32_t first, count;
+    const uint32_t *among; // NULL, or `count` numbers instead
 };
 
 static inline crossing crossing_make(float key, uint32_t leaf, bool leaving)

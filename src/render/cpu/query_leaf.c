@@ -1,64 +1,10 @@
-// query_leaf.c - queries of one leaf, and which of two surfaces at one place shows.
+// query_leaf.c - queries of one leaf, and the nearer of two answers.
 #include "render/cpu/query_leaf.h"
 
 #include "base/mem.h"
+#include "render/cpu/query_tie.h"
 
 #include <string.h>
-
-static float steep_of(struct query *q, int32_t owner, int ray, float key)
-{
-    float steep = 1; // of the plane where the ray begins
-    if (owner >= 0)
-        tile_face(q->t, &q->t->leaves[owner >> 1], ray, owner & 1, key, &steep);
-    return steep;
-}
-
-// Is the interval between key `a` at the face of `owner_a` and key `b` at that of `owner_b` too
-// thin to exist? Not where it is longer than `band`.
-static bool is_thin(struct query *q, int ray, float a, int32_t owner_a, float b, int32_t owner_b,
-                    float band)
-{
-    if (b - a > band)
-        return false;
-    if (a >= b)
-        return true;
-    float steep = fmaxf(steep_of(q, owner_a, ray, a), steep_of(q, owner_b, ray, b));
-    return tile_thickness(q->t, a, b, steep) < q->t->frame->settings->epsilon;
-}
-
-static void note_tie(struct query *q, int ray, struct query_tie tie)
-{
-    enum { TIES_MOST = 1 << 14 };
-    uint64_t bit = (uint64_t)1 << ray;
-    q->tied |= bit;
-    if (q->tie_count == TIES_MOST) {
-        q->crowded |= bit;
-        return;
-    }
-    tie.ray = ray;
-    array_reserve(&q->ties, &q->tie_capacity, q->tie_count + 1);
-    q->ties[q->tie_count++] = tie;
-}
-
-// Notes two crossings if they are at one place. Of those closer than `band` the filter decides.
-static void note_pair(struct query *q, int ray, enum tie_kind kind, struct crossed a,
-                      struct crossed b, float band)
-{
-    if (b.key < a.key || (b.key == a.key && b.owner < a.owner)) {
-        struct crossed swap = a;
-        a = b;
-        b = swap;
-    }
-    if (a.owner >= 0 && b.owner >= 0 && b.key - a.key <= band &&
-        is_thin(q, ray, a.key, a.owner, b.key, b.owner, band))
-        note_tie(q, ray, (struct query_tie){.kind = kind, .first = a, .last = b});
-}
-
-// Whose surface is anywhere between two keys is more than a pair can tell.
-static void note_crowd(struct query *q, int ray, float from, float to)
-{
-    note_tie(q, ray, (struct query_tie){.kind = TIE_CROWD, .first = {from, -1}, .last = {to, -1}});
-}
 
 void query_nearer(struct query *q, struct rays_at *s, const struct rays_at *other)
 {
@@ -69,14 +15,9 @@ void query_nearer(struct query *q, struct rays_at *s, const struct rays_at *othe
         for (; near; near &= near - 1) {
             int x = __builtin_ctz((unsigned)near), ray = y * BLOCK + x;
             struct crossed one = {a[x], s->owner[y][x]}, two = {b[x], other->owner[y][x]};
-            if (one.owner < 0 || two.owner < 0)
-                continue;
-            if (one.owner != two.owner)
-                note_pair(
-                    q, ray, TIE_EITHER, one, two,
-                    fminf(q->t->leaves[one.owner >> 1].band, q->t->leaves[two.owner >> 1].band));
-            else if (q->tied >> ray & 1) // what begins in one of them here may not matter
-                note_tie(q, ray, (struct query_tie){.kind = TIE_EITHER, .first = one, .last = two});
+            // of one owner: what begins there in one of them may not matter
+            if (one.owner != two.owner || q->tied >> ray & 1)
+                query_note_pair(q, ray, TIE_EITHER, one, two);
         }
         s->key[y] = v8_min(b, a);
         s->owner[y] = v8_selecti(b < a, other->owner[y], s->owner[y]);
@@ -86,41 +27,40 @@ void query_nearer(struct query *q, struct rays_at *s, const struct rays_at *othe
 // ---------------------------------------------------------------- one ray
 
 // One ray moves to where it is next inside the leaf, with the filter.
-static void ray_in(struct query *q, int ray, float band, int32_t id, struct crossed *at)
+static void ray_in(struct query *q, int ray, int32_t id, struct crossed *at)
 {
-    float c = at->key, epsilon = q->t->frame->epsilon;
     for (uint32_t i = 0; i < q->lane_count; i++) {
-        float e = q->lane[i].enter, x = q->lane[i].leave;
-        if (!(x > c)) {
-            if (c - x <= band && i + 1 < q->lane_count) // of a mesh that touches itself
-                note_crowd(q, ray, x, c);
+        struct crossed enter = {q->lane[i].enter, id}, leave = {q->lane[i].leave, id | 1};
+        bool ahead = enter.key > at->key;
+        if (!(leave.key > at->key)) { // what the ray has crossed may matter, but not here
+            query_note_crowd(q, ray, leave, *at);
             continue;
         }
-        if (is_thin(q, ray, e > c ? e : c, e > c ? id : at->owner, x, id | 1, band)) {
-            if (e > c) // past its edge one may see where two leaves touch
-                note_crowd(q, ray, x - epsilon, x + epsilon);
-            else
-                note_crowd(q, ray, c, x);
+        if (query_is_thin(q, ray, ahead ? enter : *at, leave)) {
+            // past the edge of the leaf one may see where two others touch
+            query_note_crowd(q, ray, ahead ? enter : *at, leave);
             continue;
         }
         if (id != at->owner)
-            note_pair(q, ray, TIE_BOTH, *at, (struct crossed){e, id}, band);
-        if (e > c)
-            *at = (struct crossed){e, id};
+            query_note_pair(q, ray, TIE_BOTH, *at, enter);
+        if (ahead)
+            *at = enter;
         return;
     }
     at->key = NEVER;
 }
 
 // One ray moves to where it is next outside of the leaf.
-static void ray_out(struct query *q, int ray, float band, int32_t id, struct crossed *at)
+static void ray_out(struct query *q, int ray, int32_t id, struct crossed *at)
 {
     for (uint32_t i = 0; i < q->lane_count; i++) {
-        float e = q->lane[i].enter, x = q->lane[i].leave, c = at->key;
-        if ((id | 1) != at->owner)
-            note_pair(q, ray, TIE_BOTH, *at, (struct crossed){x, id | 1}, band);
-        if (x > c && (e <= c || is_thin(q, ray, c, at->owner, e, id, band)))
-            *at = (struct crossed){x, id | 1};
+        struct crossed enter = {q->lane[i].enter, id}, leave = {q->lane[i].leave, id | 1};
+        if (leave.owner != at->owner)
+            query_note_pair(q, ray, TIE_BOTH, *at, leave);
+        if (leave.key > at->key && (enter.key <= at->key || query_is_thin(q, ray, *at, enter))) {
+            query_note_crowd(q, ray, enter, *at); // as above
+            *at = leave;
+        }
     }
 }
 
@@ -142,7 +82,6 @@ static void move_rays(struct query *q, const struct block_leaf *b, int32_t id, b
 {
     struct mesh_interval ends[BLOCK_PIXELS];
     uint32_t first[BLOCK_PIXELS + 1];
-    float band = b->band;
     bool mesh = b->mesh;
     if (mesh) {
         uint32_t n = b->first[BLOCK_PIXELS];
@@ -161,7 +100,7 @@ static void move_rays(struct query *q, const struct block_leaf *b, int32_t id, b
         q->lane = mesh ? q->copy + first[i] : &ends[i];
         q->lane_count = mesh ? first[i + 1] - first[i] : 1;
         if (at.key < NEVER)
-            (out ? ray_out : ray_in)(q, i, band, id, &at);
+            (out ? ray_out : ray_in)(q, i, id, &at);
         s->key[y][x] = at.key;
         s->owner[y][x] = at.owner;
     }
@@ -183,7 +122,8 @@ bool query_leaf_in(struct query *q, uint32_t index, struct rays_at *s)
         for (int y = 0; y < BLOCK; y++) {
             v8f c = s->key[y], e = enter[y], x = leave[y], m = v8_max(c, e);
             v8i in = x > c, other = s->owner[y] != v8_seti(id);
-            near[y] = ((x - m <= band) & in) | ((v8_abs(e - c) <= band) & other & (c < never));
+            near[y] = ((x - m <= band) & (x + band >= c)) |
+                      ((v8_abs(e - c) <= band) & other & (c < never));
             any |= near[y];
             moved.key[y] = v8_select(in, m, never);
             moved.owner[y] = v8_selecti((e > c) & in, v8_seti(id), s->owner[y]);

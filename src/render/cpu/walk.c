@@ -14,6 +14,8 @@ struct walk_lists {
     struct crossing_list list;
     struct combination combination;
     struct cluster_room cluster;
+    uint32_t *present; // leaves of the tile that are in the block
+    uint32_t present_capacity;
     struct span *spans;
     uint32_t span_count, span_capacity;
 };
@@ -33,7 +35,8 @@ struct walk_lists *walk_new(struct tile_room room)
 size_t walk_bytes(const struct walk_lists *w)
 {
     return w->list.size * 2 * sizeof(crossing) + combination_bytes(&w->combination, w->room) +
-           cluster_room_bytes(&w->cluster) + w->span_capacity * sizeof *w->spans;
+           cluster_room_bytes(&w->cluster) + w->present_capacity * sizeof *w->present +
+           w->span_capacity * sizeof *w->spans;
 }
 
 void walk_delete(struct walk_lists *w)
@@ -44,6 +47,7 @@ void walk_delete(struct walk_lists *w)
     free(w->list.spare);
     combination_free(&w->combination);
     cluster_room_free(&w->cluster);
+    free(w->present);
     free(w->spans);
     free(w);
 }
@@ -270,7 +274,7 @@ static uint64_t sum_of(const uint32_t *counts, int from, int to)
 void walk_first(struct tile *t, uint32_t first_leaf, uint32_t count, struct rays_at *out)
 {
     uint32_t counts[BLOCK_PIXELS];
-    struct leaf_range leaves = {first_leaf, count};
+    struct leaf_range leaves = {.first = first_leaf, .count = count};
     uint64_t sum = crossings_count(t, leaves, counts);
     t->fragments += sum;
     int group = sum <= t->lists->list.size ? BLOCK_PIXELS : 1;
@@ -280,8 +284,13 @@ void walk_first(struct tile *t, uint32_t first_leaf, uint32_t count, struct rays
 
 void walk_some(struct tile *t, uint64_t rays, struct rays_at *out)
 {
+    struct walk_lists *w = t->lists;
     uint32_t counts[BLOCK_PIXELS];
-    struct leaf_range leaves = {0, t->leaf_count};
+    array_reserve(&w->present, &w->present_capacity, t->leaf_count);
+    struct leaf_range leaves = {.among = w->present};
+    for (uint32_t i = 0; i < t->leaf_count; i++)
+        if (tile_crossings(t, &t->leaves[i]))
+            w->present[leaves.count++] = i;
     crossings_count(t, leaves, counts);
     for (; rays; rays &= rays - 1) {
         int ray = __builtin_ctzll(rays);
@@ -295,7 +304,7 @@ void walk_block(struct tile *t,
 {
     struct walk_lists *w = t->lists;
     uint32_t counts[BLOCK_PIXELS], span_first[BLOCK_PIXELS + 1];
-    struct leaf_range leaves = {0, t->leaf_count};
+    struct leaf_range leaves = {.count = t->leaf_count};
     int width = t->x1 - t->bx < BLOCK ? t->x1 - t->bx : BLOCK;
     int height = t->y1 - t->by < BLOCK ? t->y1 - t->by : BLOCK;
     uint64_t sum = crossings_count(t, leaves, counts);
