@@ -26,11 +26,11 @@ LD_LIBRARY_PATH=none "$render" --device=gl $size -o none.png part.csg 2>stderr |
 [ $status = 1 ] && [ "$(wc -l <stderr)" = 1 ] && [ ! -e none.png ] &&
     grep -q -- '--device=gl: no OpenGL: libEGL.so.1 cannot be loaded' stderr ||
     fault "gl without EGL: $status '$(cat stderr)'"
-LD_LIBRARY_PATH=none "$render" $size -o auto.png part.csg 2>stderr && [ ! -s stderr ] &&
+LD_LIBRARY_PATH=none "$render" --device=auto $size -o auto.png part.csg 2>stderr && [ ! -s stderr ] &&
     cmp auto.png cpu.png || fault "auto without EGL: '$(cat stderr)'"
-LD_LIBRARY_PATH=none "$render" --info >info
+LD_LIBRARY_PATH=none "$render" --info --device=auto >info
 grep -q '^Draws with: cpu; not gl: no OpenGL: libEGL' info || fault "--info: '$(cat info)'"
-"$render" --info --device=cpu | grep -qx 'Draws with: cpu' || fault '--info --device=cpu'
+"$render" --info | grep -qx 'Draws with: cpu' || fault '--info without a device'
 
 status=0
 "$render" --info --device=gl >info || status=$?
