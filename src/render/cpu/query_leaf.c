@@ -55,10 +55,11 @@ static void ray_out(struct query *q, int ray, int32_t id, struct crossed *at)
 {
     for (uint32_t i = 0; i < q->lane_count; i++) {
         struct crossed enter = {q->lane[i].enter, id}, leave = {q->lane[i].leave, id | 1};
+        query_note_crowd(q, ray, enter, leave); // too thin to exist, it does not show
         if (leave.owner != at->owner)
             query_note_pair(q, ray, TIE_BOTH, *at, leave);
         if (leave.key > at->key && (enter.key <= at->key || query_is_thin(q, ray, *at, enter))) {
-            query_note_crowd(q, ray, enter, *at); // as above
+            query_note_crowd(q, ray, enter, *at); // what it has crossed may matter, but not here
             *at = leave;
         }
     }
