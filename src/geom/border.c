@@ -1,4 +1,4 @@
-// border.c - whether a mesh, as it was written, is the border of a solid.
+// border.c - whether a mesh is the border of a solid.
 #include "geom/border.h"
 
 #include "base/hash.h"
@@ -9,28 +9,27 @@ struct edge {
     uint32_t from, to;
 };
 
-// The side of a triangle as it was written.
-static struct edge edge_of(const struct mesh *m, uint32_t triangle, uint32_t side)
+static struct edge edge_of(const struct mesh *m, uint32_t triangle, uint32_t side, bool as_written)
 {
     const uint32_t *t = m->triangles[triangle];
     struct edge e = {t[side], t[(side + 1) % 3]};
-    if (m->turned && m->turned[m->faces[triangle]])
+    if (as_written && m->turned && m->turned[m->faces[triangle]])
         e = (struct edge){e.to, e.from};
     return e;
 }
 
-// Each edge has a random number, which counts positive in one direction and negative in the other:
-// that the sum is 0 although there is a border has a chance of 2^-64.
-static bool edges_are_left(const struct mesh *m)
+bool mesh_is_balanced(const struct mesh *m, bool as_written)
 {
+    // Each edge has a random number, which counts positive in one direction and negative in the
+    // other: that the sum is 0 although edges are left has a chance of 2^-64.
     uint64_t sum = 0;
     for (uint32_t t = 0; t < m->triangle_count; t++)
         for (uint32_t i = 0; i < 3; i++) {
-            struct edge e = edge_of(m, t, i);
+            struct edge e = edge_of(m, t, i, as_written);
             sum += e.from < e.to ? hash_mix((uint64_t)e.from << 32 | e.to)
                                  : -hash_mix((uint64_t)e.to << 32 | e.from);
         }
-    return sum != 0;
+    return sum == 0;
 }
 
 static uint64_t undirected(const struct edge *e)
@@ -56,7 +55,7 @@ static struct edge *edges_left(const struct mesh *m, size_t *count)
     size_t all = (size_t)m->triangle_count * 3, next;
     struct edge *edges = mem_alloc(all * sizeof *edges);
     for (size_t i = 0; i < all; i++)
-        edges[i] = edge_of(m, (uint32_t)(i / 3), (uint32_t)(i % 3));
+        edges[i] = edge_of(m, (uint32_t)(i / 3), (uint32_t)(i % 3), true);
     qsort(edges, all, sizeof *edges, by_ends);
     *count = 0;
     for (size_t i = 0; i < all; i = next) {
@@ -144,7 +143,7 @@ static bool edges_have_area(const struct mesh *m, const struct edge *edges, size
 
 bool mesh_has_border(const struct mesh *m)
 {
-    if (!edges_are_left(m))
+    if (mesh_is_balanced(m, true))
         return false;
     size_t count;
     struct edge *edges = edges_left(m, &count);

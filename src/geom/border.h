@@ -1,6 +1,10 @@
-// border.h - whether a mesh, as it was written, is the border of a solid.
+// border.h - whether a mesh is the border of a solid.
 #pragma once
 #include "geom/mesh.h"
+
+// Does each edge have as many triangles on one side as on the other? Then each line leaves the mesh
+// as often as it enters it. Faces count as they are, or as they were written.
+bool mesh_is_balanced(const struct mesh *m, bool as_written);
 
 // Are there holes, with the faces that were turned as they were written? Edges with more triangles
 // on one side than on the other make holes, unless these have no area, as where a corner lies

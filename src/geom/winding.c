@@ -1,21 +1,6 @@
 // winding.c - what the winding numbers around a mesh may be.
 #include "geom/winding.h"
 
-#include "base/hash.h"
-
-// Each edge has a random number, which counts positive in one direction and negative in the other:
-// that the sum is 0 although the edges do not cancel each other has a chance of 2^-64.
-bool mesh_is_balanced(const struct mesh *m)
-{
-    uint64_t sum = 0;
-    for (uint32_t t = 0; t < m->triangle_count; t++)
-        for (uint32_t i = 0; i < 3; i++) {
-            uint64_t from = m->triangles[t][i], to = m->triangles[t][(i + 1) % 3];
-            sum += from < to ? hash_mix(from << 32 | to) : -hash_mix(to << 32 | from);
-        }
-    return sum == 0;
-}
-
 // The line along an axis enters the mesh through triangles that face back and leaves it through
 // those that face forward. Where all of the former are in front of all of the latter, numbers go up
 // first and down then, from 0 to 0.

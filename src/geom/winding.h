@@ -2,9 +2,6 @@
 #pragma once
 #include "geom/solid.h"
 
-// Does each edge have as many triangles on one side as on the other? Then each line leaves the mesh
-// as often as it enters it.
-bool mesh_is_balanced(const struct mesh *m);
 // Is no winding number around a balanced mesh below 0, whatever overlaps? True is certain; false is
 // in doubt.
 bool mesh_is_never_inside_out(const struct mesh *m);

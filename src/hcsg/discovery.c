@@ -171,27 +171,6 @@ int discovery_resolve(struct discovery *d, uint64_t key, const struct member *se
     return solid ? SET_SOLID : SET_EMPTY;
 }
 
-static int compare_members(const void *a, const void *b)
-{
-    uint32_t p = ((const struct member *)a)->class_id, q = ((const struct member *)b)->class_id;
-    return p < q ? -1 : p > q;
-}
-
-// Sorts members and adds up those of one class; returns how many are left.
-static uint32_t settle_members(struct member *members, uint32_t count)
-{
-    uint32_t kept = 0;
-    qsort(members, count, sizeof *members, compare_members);
-    for (uint32_t i = 0, next; i < count; i = next) {
-        struct member sum = members[i];
-        for (next = i + 1; next < count && members[next].class_id == sum.class_id; next++)
-            sum.count += members[next].count;
-        if (sum.count)
-            members[kept++] = sum;
-    }
-    return kept;
-}
-
 // The members of a known combination and room for `more` of them; the caller frees. NULL when the
 // key is not known.
 static struct member *members_of(struct combinations *c, uint64_t key, uint32_t more,
@@ -234,7 +213,7 @@ bool discovery_extend(struct discovery *d, uint64_t from, const struct class_ste
         return false;
     for (uint32_t i = 0; i < count; i++)
         members[known + i] = (struct member){steps[i].class_id, (uint32_t)steps[i].by};
-    discovery_resolve(d, key, members, settle_members(members, known + count));
+    discovery_resolve(d, key, members, members_settle(members, known + count));
     free(members);
     return true;
 }

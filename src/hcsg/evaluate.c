@@ -13,6 +13,26 @@
 
 enum { PENDING_LOCAL = 128 };
 
+static int compare_members(const void *a, const void *b)
+{
+    uint32_t p = ((const struct member *)a)->class_id, q = ((const struct member *)b)->class_id;
+    return p < q ? -1 : p > q;
+}
+
+uint32_t members_settle(struct member *members, uint32_t count)
+{
+    uint32_t kept = 0;
+    qsort(members, count, sizeof *members, compare_members);
+    for (uint32_t i = 0, next; i < count; i = next) {
+        struct member sum = members[i];
+        for (next = i + 1; next < count && members[next].class_id == sum.class_id; next++)
+            sum.count += members[next].count;
+        if (sum.count)
+            members[kept++] = sum;
+    }
+    return kept;
+}
+
 struct pending { // a node below which something holds
     uint32_t node;
     uint32_t held; // children that hold

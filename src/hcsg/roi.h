@@ -10,3 +10,10 @@
 // the leaf cannot matter; `roi` may be `leaf_box`. Conservative: never smaller than the true
 // region.
 void roi_build(struct box *roi, const struct expr *e, const struct box *leaf_box);
+
+// How far beyond its region a leaf is kept when it is cut to it: where it only touches another leaf
+// it still has its face.
+static inline double roi_margin(double epsilon)
+{
+    return 16 * epsilon;
+}

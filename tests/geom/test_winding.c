@@ -1,4 +1,5 @@
 // test_winding.c - meshes that are open, inside out or neither.
+#include "geom/border.h"
 #include "geom/winding.h"
 #include "unit.h"
 
@@ -23,14 +24,14 @@ static void each_edge_needs_two_sides(void **state)
     (void)state;
     struct mesh_builder b = {0};
     add_box(&b, (struct vec3){0, 0, 0}, (struct vec3){1, 1, 1}, false);
-    assert_true(mesh_is_balanced(&b.mesh));
+    assert_true(mesh_is_balanced(&b.mesh, false));
     b.mesh.triangle_count--;
-    assert_false(mesh_is_balanced(&b.mesh));
+    assert_false(mesh_is_balanced(&b.mesh, false));
     b.mesh.triangle_count++;
     uint32_t *t = b.mesh.triangles[0], swap = t[0];
     t[0] = t[1];
     t[1] = swap;
-    assert_false(mesh_is_balanced(&b.mesh));
+    assert_false(mesh_is_balanced(&b.mesh, false));
     mesh_free(&b.mesh);
 }
 
@@ -54,13 +55,13 @@ static void what_is_inverted_is_in_doubt(void **state)
     (void)state;
     struct mesh_builder b = {0};
     add_box(&b, (struct vec3){0, 0, 0}, (struct vec3){1, 1, 1}, true);
-    assert_true(mesh_is_balanced(&b.mesh));
+    assert_true(mesh_is_balanced(&b.mesh, false));
     assert_false(mesh_is_never_inside_out(&b.mesh));
     mesh_free(&b.mesh);
     b = (struct mesh_builder){0};
     add_box(&b, (struct vec3){0, 0, 0}, (struct vec3){3, 3, 3}, false);
     add_box(&b, (struct vec3){1, 1, 1}, (struct vec3){2, 2, 2}, true);
-    assert_true(mesh_is_balanced(&b.mesh));
+    assert_true(mesh_is_balanced(&b.mesh, false));
     assert_false(mesh_is_never_inside_out(&b.mesh));
     mesh_free(&b.mesh);
 }

@@ -60,28 +60,6 @@ static void member_step(struct combination *s, uint32_t class_id, bool in)
     }
 }
 
-static int compare_members(const void *a, const void *b)
-{
-    uint32_t p = ((const struct member *)a)->class_id, q = ((const struct member *)b)->class_id;
-    return p < q ? -1 : p > q;
-}
-
-// Sorts members that were appended one by one, and adds up those of one class.
-static void members_settle(struct combination *s)
-{
-    uint32_t kept = 0;
-    qsort(s->members, s->member_count, sizeof *s->members, compare_members);
-    for (uint32_t i = 0, next; i < s->member_count; i = next) {
-        struct member sum = s->members[i];
-        for (next = i + 1; next < s->member_count && s->members[next].class_id == sum.class_id;
-             next++)
-            sum.count += s->members[next].count;
-        if (sum.count)
-            s->members[kept++] = sum;
-    }
-    s->member_count = kept;
-}
-
 // Makes the members the combination of the base and the crossings items[0 .. n). Goes on from where
 // the last call stopped if that was in front of n in the same list.
 static void replay(struct combination *s, const crossing *items, uint32_t n)
@@ -106,7 +84,7 @@ static void replay(struct combination *s, const crossing *items, uint32_t n)
             member_step(s, class_id, !(id & 1));
     }
     if (many)
-        members_settle(s);
+        s->member_count = members_settle(s->members, s->member_count);
 }
 
 void combination_carry(struct combination *s, const crossing *items, uint32_t taken)

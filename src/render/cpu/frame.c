@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "render/depth_key.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,7 @@ enum { QUERY_DEPTH = 12, QUERY_NODES = 4096, FIELDS = 8, CHUNK = 256 };
 
 double frame_key(const struct frame *f, double depth)
 {
-    return f->rays->orthographic ? depth - f->t0 : f->t0 - f->t0 * f->t0 / depth;
+    return depth_key(f->rays, f->t0, depth);
 }
 
 double frame_depth(const struct frame *f, double key)
@@ -23,13 +24,8 @@ double frame_depth(const struct frame *f, double key)
 static void init_depths(struct frame *f)
 {
     const struct rays *r = f->rays;
-    struct vec3 axis = vec3_normalized(vec3_cross(r->step_x, r->step_y));
-    if (vec3_dot(axis, r->forward) < 0)
-        axis = vec3_scale(axis, -1);
-    f->axis = axis;
-    f->t0 = r->reference;
-    if (!r->orthographic && f->t0 < 2 * r->near)
-        f->t0 = 2 * r->near;
+    f->axis = depth_axis(r);
+    f->t0 = depth_key_origin(r);
     f->start = (float)frame_key(f, r->near);
     f->end = (float)frame_key(f, r->far);
     f->epsilon = (float)f->settings->epsilon;

@@ -1,10 +1,6 @@
 // frame.h - what is worked out once per frame: the depth key, where each leaf shows, in what order.
 //
-// Inside the device a depth is a *key*, a number that grows along the ray and that every plane
-// gives as an affine function of the pixel:
-//   orthographic: key = t - t0          perspective: key = t0 - t0 * t0 / t
-// t is the depth of rays.h, t0 a depth inside the scene. Near t0 keys are millimetres in both
-// cases.
+// Inside the device a depth is its *key*: render/depth_key.h.
 #pragma once
 #include "render/cpu/mesh_tree.h"
 #include "render/device.h"

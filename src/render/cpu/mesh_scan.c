@@ -7,6 +7,7 @@
 #include "render/cpu/mesh_scan.h"
 
 #include "base/mem.h"
+#include "render/depth_key.h"
 
 #include <float.h>
 
@@ -32,8 +33,7 @@ static void linear(const struct affine *m, struct vec3 origin, struct vec3 g, st
 static struct mesh_view mesh_view(const struct frame *f, const struct leaf *leaf)
 {
     const struct rays *r = f->rays;
-    struct mesh_view v = {.orthographic = r->orthographic,
-                          .clip = fmax(r->near * 0.5, f->t0 * 1e-3)};
+    struct mesh_view v = {.orthographic = r->orthographic, .clip = depth_clip(r, f->t0)};
     struct vec3 sx = vec3_scale(r->step_x, 1 / vec3_dot(r->step_x, r->step_x));
     struct vec3 sy = vec3_scale(r->step_y, 1 / vec3_dot(r->step_y, r->step_y));
     if (!r->orthographic) { // forward itself is pixel (0, 0)

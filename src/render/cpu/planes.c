@@ -198,7 +198,7 @@ static uint32_t add_region(struct tile *t, const struct tile_leaf *l, const stru
     double planes[4][REGION_PLANES];
     if (!t->frame->clip || !body->roi)
         return p->count;
-    double margin = 16 * t->frame->settings->epsilon;
+    double margin = roi_margin(t->frame->settings->epsilon);
     uint32_t n = region_planes(&body->leaves[l->leaf], &body->roi[l->leaf], margin, planes);
     if (!n)
         return p->count;

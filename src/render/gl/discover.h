@@ -13,6 +13,6 @@ struct gl_table { // {0} is valid: nothing uploaded
 bool gl_table_upload(struct gl_table *t, struct gl_memory *memory, struct discovery *d,
                      struct error *err);
 
-// Evaluates combinations that rays have put on record (resolve.comp.glsl): `words` words. Returns
+// Evaluates combinations that rays have put on record (combination.glsl): `words` words. Returns
 // how many the table did not know.
 uint32_t gl_discover(const struct body *body, const uint32_t *records, size_t words);

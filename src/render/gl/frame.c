@@ -1,7 +1,7 @@
 // frame.c - the numbers of a picture that all passes share.
 #include "render/gl/frame.h"
 
-#include <math.h>
+#include "render/depth_key.h"
 
 static void put(double out[3], struct vec3 v)
 {
@@ -10,37 +10,23 @@ static void put(double out[3], struct vec3 v)
     out[2] = v.z;
 }
 
-static double key_of(const struct frame_data *f, double depth)
-{
-    return f->orthographic ? depth - f->t0 : f->t0 - f->t0 * f->t0 / depth;
-}
-
-// Into the picture; *mirrored: x, y and it are left-handed.
-static struct vec3 axis_of(const struct rays *r, bool *mirrored)
-{
-    struct vec3 axis = vec3_normalized(vec3_cross(r->step_x, r->step_y));
-    *mirrored = vec3_dot(axis, r->forward) < 0;
-    return *mirrored ? vec3_scale(axis, -1) : axis;
-}
-
 void gl_frame_init(struct frame_data *f, const struct body *body, const struct rays *rays,
                    const struct render_settings *settings)
 {
-    bool mirrored;
-    struct vec3 axis = axis_of(rays, &mirrored);
+    struct vec3 axis = depth_axis(rays);
     struct vec3 x = vec3_scale(rays->step_x, 1 / vec3_dot(rays->step_x, rays->step_x));
     struct vec3 y = vec3_scale(rays->step_y, 1 / vec3_dot(rays->step_y, rays->step_y));
     *f = (struct frame_data){.orthographic = rays->orthographic,
-                             .mirrored = mirrored,
+                             .mirrored = vec3_dot(axis, vec3_cross(rays->step_x, rays->step_y)) < 0,
                              .width = rays->width,
                              .height = rays->height,
                              .rows = rays->height,
                              .columns = rays->width,
-                             .t0 = rays->reference,
+                             .t0 = depth_key_origin(rays),
                              .near = rays->near,
                              .far = rays->far,
                              .epsilon = settings->epsilon,
-                             .margin = 16 * settings->epsilon,
+                             .margin = roi_margin(settings->epsilon),
                              .borders = body->borders,
                              .leaf_count = body->leaf_count,
                              .slab_first = 1,
@@ -48,9 +34,8 @@ void gl_frame_init(struct frame_data *f, const struct body *body, const struct r
     if (!rays->orthographic) { // forward itself is pixel (0, 0)
         x = vec3_sub(x, vec3_scale(axis, vec3_dot(rays->forward, x)));
         y = vec3_sub(y, vec3_scale(axis, vec3_dot(rays->forward, y)));
-        f->t0 = fmax(f->t0, 2 * rays->near);
     }
-    f->clip = fmax(rays->near * 0.5, f->t0 * 1e-3);
+    f->clip = depth_clip(rays, f->t0);
     put(f->origin, rays->origin);
     put(f->forward, rays->forward);
     put(f->step_x, rays->step_x);
@@ -58,8 +43,8 @@ void gl_frame_init(struct frame_data *f, const struct body *body, const struct r
     put(f->axis, axis);
     put(f->dual_x, x);
     put(f->dual_y, y);
-    f->start = (float)key_of(f, rays->near);
-    f->end = (float)key_of(f, rays->far);
+    f->start = (float)depth_key(rays, f->t0, rays->near);
+    f->end = (float)depth_key(rays, f->t0, rays->far);
     f->to_depth = (float)(1 / f->t0);
     f->shift = (float)(f->t0 - rays->reference);
     f->slab_end = f->end;
@@ -69,8 +54,7 @@ bool gl_frame_range(const struct frame_data *f, const struct rays *rays, const s
                     float *near, float *far)
 {
     struct box all = BOX_EMPTY;
-    bool mirrored;
-    struct vec3 axis = axis_of(rays, &mirrored);
+    struct vec3 axis = depth_axis(rays);
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < body->leaf_count; i++)
         all = box_union(all, body->leaves[i].box);
@@ -81,7 +65,7 @@ bool gl_frame_range(const struct frame_data *f, const struct rays *rays, const s
         low = fmin(low, t);
         high = fmax(high, t);
     }
-    *near = low <= rays->near ? f->start : (float)key_of(f, low);
-    *far = high >= rays->far ? f->end : (float)key_of(f, high);
+    *near = low <= rays->near ? f->start : (float)depth_key(rays, f->t0, low);
+    *far = high >= rays->far ? f->end : (float)depth_key(rays, f->t0, high);
     return high > rays->near && low < rays->far;
 }

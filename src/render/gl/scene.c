@@ -2,6 +2,7 @@
 #include "render/gl/scene.h"
 
 #include "base/mem.h"
+#include "geom/border.h"
 #include "geom/winding.h"
 #include "shaders/shared.h"
 
@@ -38,7 +39,7 @@ static uint32_t winding_flags(const struct solid *s)
 {
     if (s->convex)
         return 0;
-    if (!mesh_is_balanced(&s->mesh))
+    if (!mesh_is_balanced(&s->mesh, false))
         return LEAF_OPEN | LEAF_WINDING;
     return mesh_is_never_inside_out(&s->mesh) ? 0 : LEAF_WINDING;
 }

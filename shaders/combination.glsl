@@ -1,0 +1,97 @@
+// combination.glsl - is a set of solids around an interval solid? An unknown one is put on record, as
+// a step from the one in front of the cluster.
+
+// Parts of the cluster.
+#define SUBSET_ALL    0
+#define SUBSET_PREFIX 1 // the crossings up to c
+#define SUBSET_REST   2 // all but c
+#define SUBSET_ALONE  3 // c alone
+#define SUBSET_ENTER  4 // those that enter
+
+bool is_border(uint i)
+{
+    return (at(i).triangle & FRAGMENT_BORDER) != 0;
+}
+
+// A leaf that only crosses the border of its region is inside on both sides in truth.
+bool in_subset(int subset, uint i, uint c)
+{
+    if (subset == SUBSET_ALL)
+        return true;
+    if (subset == SUBSET_ENTER || is_border(i))
+        return (at(i).leaf & FRAGMENT_LEAVES) == 0;
+    return subset == SUBSET_PREFIX ? i <= c : (i == c) == (subset == SUBSET_ALONE);
+}
+
+// Is this the first thread to record the combination?
+bool claim(uvec2 key)
+{
+    uint mark = (key.x * 0x9e3779b1u ^ key.y * 0x85ebca77u) | 1u;
+    uint found = atomicCompSwap(claims[(key.x ^ key.x >> 16) & frame.claim_mask], 0, mark);
+    return found != mark;
+}
+
+// A record: key in front, key, number of crossings between, for each the leaf as in a fragment.
+void record(uvec2 key, int subset, uint c)
+{
+    key.y &= SECONDARY;
+    if (count.misses > frame.miss_most || !claim(key)) // full; or it is there
+        return;
+    uint n = 0;
+    for (uint i = from; i < to; i++)
+        n += uint(in_subset(subset, i, c));
+    uint words = 5 + n, start = atomicAdd(count.misses, words);
+    if (start + words > frame.miss_most || start + words < start)
+        return;
+    misses[start] = before.x;
+    misses[start + 1] = before.y & SECONDARY;
+    misses[start + 2] = key.x;
+    misses[start + 3] = key.y;
+    misses[start + 4] = n;
+    start += 5;
+    for (uint i = from; i < to; i++)
+        if (in_subset(subset, i, c))
+            misses[start++] = at(i).leaf;
+}
+
+#ifdef ARRAY
+// Crossings of the cluster come or, by -1, go.
+void count_subset(int subset, uint c, int by)
+{
+    for (uint i = from; i < to; i++)
+        if (in_subset(subset, i, c))
+            count_leaf(at(i).leaf >> 1, uint((at(i).leaf & FRAGMENT_LEAVES) != 0 ? -by : by));
+}
+
+bool is_solid(uvec2 key, int subset, uint c)
+{
+    count_subset(subset, c, 1);
+    bool state = evaluate();
+    count_subset(subset, c, -1);
+    return state;
+}
+#else
+bool is_solid(uvec2 key, int subset, uint c)
+{
+    uint state = table_lookup(key);
+    if (state == SET_UNKNOWN) {
+        unknown = true;
+        record(key, subset, c);
+    }
+    return state == SET_SOLID;
+}
+#endif
+
+uvec2 sum_of(int subset, uint c)
+{
+    uvec2 sum = before;
+    for (uint i = from; i < to; i++)
+        if (in_subset(subset, i, c))
+            sum = key_add(sum, step_of(at(i)));
+    return sum;
+}
+
+bool solid_with(int subset, uint c)
+{
+    return is_solid(sum_of(subset, c), subset, c);
+}
