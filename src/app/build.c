@@ -24,6 +24,7 @@ struct build {
     struct build_task now;      // the worker's
     struct build_task next;     // without a name: none
     struct loaded *retired;     // not freed yet
+    struct loaded *before;      // whose place the next model takes; held
     atomic_bool cancelled;      // `now` is
     bool busy, replaced, ended; // replaced: `now` took the place of another
 };
@@ -69,6 +70,7 @@ static void make(struct build *b, const struct csg_tree *tree)
     options.import_folders = b->import_folders;
     options.import_folder_count = b->import_folder_count;
     options.cancelled = &b->cancelled;
+    options.before = b->before ? &b->before->model : NULL;
     model_build(&s->model, tree, b->store, &options, &b->now.messages);
     if (atomic_load(&b->cancelled)) {
         loaded_free(s);
@@ -100,6 +102,14 @@ static void on_work(uv_work_t *work)
     csg_free(&tree);
 }
 
+static void end(struct build *b)
+{
+    if (b->before && atomic_fetch_sub(&b->before->references, 1) == 1)
+        loaded_free(b->before); // there is no loader any more that could free it
+    solid_store_delete(b->store);
+    free(b);
+}
+
 static void begin(struct build *b);
 
 static void on_worked(uv_work_t *work, int status)
@@ -120,8 +130,7 @@ static void on_worked(uv_work_t *work, int status)
     }
     build_task_free(&task);
     if (b->ended) {
-        solid_store_delete(b->store);
-        free(b);
+        end(b);
     } else if (!b->busy && b->next.name) {
         begin(b);
     }
@@ -187,12 +196,17 @@ void build_retire(struct build *b, struct loaded *list)
     }
 }
 
+void build_replace(struct build *b, struct loaded *s)
+{
+    struct loaded *before = b->before;
+    b->before = loaded_hold(s);
+    loaded_release(before);
+}
+
 void build_delete(struct build *b)
 {
     build_cancel(b);
     b->ended = true;
-    if (!b->busy) {
-        solid_store_delete(b->store);
-        free(b);
-    }
+    if (!b->busy)
+        end(b);
 }

@@ -28,5 +28,7 @@ void build_ask(struct build *b, struct build_task *task);
 void build_cancel(struct build *b);
 // Frees models that nobody holds, when no build uses their solids.
 void build_retire(struct build *b, struct loaded *list);
+// Models begun from now on take the place of this one. Only from `done`.
+void build_replace(struct build *b, struct loaded *s);
 // Everything is gone once the loop has run.
 void build_delete(struct build *b);

@@ -165,6 +165,7 @@ static void on_built(void *context, struct build_task *task)
     s->times = task->times;
     s->number = ++l->loads;
     s->loader = l;
+    build_replace(l->build, s);
     messages_print(&task->messages, stderr);
     // What is wrong with a newer file is more to the point.
     char *message = l->failed > s->times.noticed ? NULL : report_summary(&task->messages);

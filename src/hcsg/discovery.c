@@ -171,6 +171,17 @@ int discovery_resolve(struct discovery *d, uint64_t key, const struct member *se
     return solid ? SET_SOLID : SET_EMPTY;
 }
 
+// The members of a stored set, whose number is `count`; *set stands behind that number.
+static void read_members(const unsigned char *set, struct member *members, uint32_t count)
+{
+    uint64_t class_id = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint64_t n = read_number(&set);
+        class_id += n >> 1;
+        members[i] = (struct member){(uint32_t)class_id, n & 1 ? (uint32_t)read_number(&set) : 1};
+    }
+}
+
 // The members of a known combination and room for `more` of them; the caller frees. NULL when the
 // key is not known.
 static struct member *members_of(struct combinations *c, uint64_t key, uint32_t more,
@@ -186,13 +197,7 @@ static struct member *members_of(struct combinations *c, uint64_t key, uint32_t 
         const unsigned char *set = t->sets[table_place(t, key)];
         *count = (uint32_t)read_number(&set);
         members = mem_alloc(((size_t)*count + more + 1) * sizeof *members);
-        uint64_t class_id = 0;
-        for (uint32_t i = 0; i < *count; i++) {
-            uint64_t n = read_number(&set);
-            class_id += n >> 1;
-            members[i] =
-                (struct member){(uint32_t)class_id, n & 1 ? (uint32_t)read_number(&set) : 1};
-        }
+        read_members(set, members, *count);
     }
     pthread_mutex_unlock(&c->lock);
     return members;
@@ -216,6 +221,53 @@ bool discovery_extend(struct discovery *d, uint64_t from, const struct class_ste
     discovery_resolve(d, key, members, members_settle(members, known + count));
     free(members);
     return true;
+}
+
+// A record of another table, with the set behind it; `room` holds its members.
+static void inherit(struct combinations *c, uint64_t record, const unsigned char *set,
+                    const uint32_t *image, struct member **room, uint32_t *capacity)
+{
+    uint32_t count = (uint32_t)read_number(&set);
+    uint64_t key = 0;
+    bool solid = record >> TABLE_SOLID_SHIFT;
+    array_reserve(room, capacity, count);
+    struct member *members = *room;
+    read_members(set, members, count);
+    for (uint32_t i = 0; i < count && image; i++) {
+        members[i].class_id = image[members[i].class_id];
+        if (members[i].class_id == EXPR_NONE)
+            return;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        key += c->sharing->classes[members[i].class_id].value * members[i].count;
+    key &= VALUE_MASK;
+    if (image) {
+        count = members_settle(members, count);
+        solid = evaluate_set(c->expr, c->sharing, members, count);
+    }
+    if (key != 0 && !table_find(current(c), key))
+        remember(c, key, solid, members, count);
+}
+
+void discovery_inherit(struct discovery *d, struct discovery *from, const uint32_t *image)
+{
+    struct combinations *c = whole(d), *old = whole(from);
+    struct member *room = NULL;
+    uint32_t capacity = 0;
+    pthread_mutex_lock(&old->lock);
+    const struct table *t = current(old);
+    if (t->count > 0 && t->count <= DISCOVERY_INHERITED) {
+        discovery_settle(d);
+        table_delete(current(c));
+        atomic_store_explicit(&d->table, table_new(t->bits), memory_order_release);
+        for (uint32_t i = 0; i < table_capacity(t); i++) {
+            uint64_t record = atomic_load_explicit(&t->records[i], memory_order_relaxed);
+            if (table_age(record))
+                inherit(c, record, t->sets[i], image, &room, &capacity);
+        }
+    }
+    pthread_mutex_unlock(&old->lock);
+    free(room);
 }
 
 void discovery_renew(struct discovery *d)

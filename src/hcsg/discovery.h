@@ -50,6 +50,14 @@ bool discovery_extend(struct discovery *d, uint64_t from, const struct class_ste
 // before are meaningless afterwards. Not while another thread uses `d`.
 void discovery_renew(struct discovery *d);
 
+// Makes known what `from` knows of sets all of whose classes are here: image[class of `from`] is
+// its number here, EXPR_NONE for one that is not, and has the same value (sharing_inherit). The
+// sets are evaluated anew; image NULL: the expressions are the same (sharing_equal), so answers
+// hold as they are. Nothing comes over of a table with more than DISCOVERY_INHERITED combinations:
+// most of them may have been left behind by edits. `from` may be in use meanwhile.
+enum { DISCOVERY_INHERITED = 1 << 18 };
+void discovery_inherit(struct discovery *d, struct discovery *from, const uint32_t *image);
+
 // Two numbers for those who keep copies of the table: no two objects have the first in common; the
 // second changes whenever the table does.
 uint64_t discovery_identity(struct discovery *d);

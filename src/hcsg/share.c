@@ -64,6 +64,60 @@ void sharing_build(struct sharing *out, const struct expr *e, const bool *convex
     free(class_of_node);
 }
 
+enum { MIXED = EXPR_NONE - 1 }; // of several classes
+
+static void note(uint32_t *noted, uint32_t class_id)
+{
+    if (*noted == EXPR_NONE)
+        *noted = class_id;
+    else if (*noted != class_id)
+        *noted = MIXED;
+}
+
+void sharing_inherit(struct sharing *s, uint32_t leaf_count, const struct sharing *before,
+                     const uint32_t *counterpart, uint32_t *image)
+{
+    uint32_t *origin = mem_alloc((size_t)s->class_count * sizeof *origin);
+    memset(origin, 0xff, s->class_count * sizeof *origin);
+    memset(image, 0xff, before->class_count * sizeof *image);
+    for (uint32_t i = 0; i < leaf_count; i++) {
+        uint32_t now = s->class_of_leaf[i];
+        uint32_t then =
+            counterpart[i] == EXPR_NONE ? EXPR_NONE : before->class_of_leaf[counterpart[i]];
+        if (now == EXPR_NONE || then == EXPR_NONE)
+            continue;
+        note(&origin[now], then);
+        note(&image[then], now);
+    }
+    for (uint32_t i = 0; i < s->class_count; i++)
+        s->classes[i].value = 0;
+    for (uint32_t i = 0; i < before->class_count; i++) {
+        if (image[i] >= MIXED || origin[image[i]] != i)
+            image[i] = EXPR_NONE;
+        else
+            s->classes[image[i]].value = before->classes[i].value;
+    }
+    values_fill_rest(s->classes, s->class_count, VALUE_SEED);
+    free(origin);
+}
+
+bool sharing_equal(const struct sharing *s, const struct expr *e, const struct sharing *other,
+                   const struct expr *other_e)
+{
+    bool equal = s->class_count == other->class_count && e->node_count == other_e->node_count &&
+                 e->kid_count == other_e->kid_count && e->root == other_e->root;
+    for (uint32_t i = 0; equal && i < s->class_count; i++) {
+        const struct value_class *a = &s->classes[i], *b = &other->classes[i];
+        equal = a->rule == b->rule && a->node == b->node && a->members == b->members;
+    }
+    for (uint32_t i = 0; equal && i < e->node_count; i++) {
+        const struct expr_node *a = &e->nodes[i], *b = &other_e->nodes[i];
+        equal = a->op == b->op && a->parent == b->parent && a->count == b->count &&
+                a->minus == b->minus;
+    }
+    return equal;
+}
+
 void sharing_free(struct sharing *s)
 {
     free(s->class_of_leaf);

@@ -28,4 +28,14 @@ struct sharing {             // {0} is valid
 // convex[leaf]: the leaf cannot count itself twice. share = false gives each leaf its own class
 // (the bench measures what sharing brings).
 void sharing_build(struct sharing *out, const struct expr *e, const bool *convex, bool share);
+// Gives classes the values they had in `before`. counterpart[leaf] is the number that the leaf had
+// there, EXPR_NONE for a new one. A class is still the same when all its leaves that were there
+// come from one class, all of whose leaves that still matter are in it. image[class of `before`]
+// becomes its number now, EXPR_NONE when it is no more. Not once keys were summed.
+void sharing_inherit(struct sharing *s, uint32_t leaf_count, const struct sharing *before,
+                     const uint32_t *counterpart, uint32_t *image);
+// Are the classes and what is asked of them the same, so that evaluate_set is the same function?
+// The leaves behind them may differ.
+bool sharing_equal(const struct sharing *s, const struct expr *e, const struct sharing *other,
+                   const struct expr *other_e);
 void sharing_free(struct sharing *s); // leaves {0}

@@ -21,12 +21,24 @@ static bool set_add(uint32_t *set, uint32_t mask, uint32_t number)
 
 void values_fill(struct value_class *classes, uint32_t count, uint64_t seed)
 {
+    for (uint32_t i = 0; i < count; i++)
+        classes[i].value = 0;
+    values_fill_rest(classes, count, seed);
+}
+
+void values_fill_rest(struct value_class *classes, uint32_t count, uint64_t seed)
+{
     uint64_t places = 16;
     while (places < (uint64_t)count * 2)
         places *= 2;
     uint32_t *used = mem_zalloc(places * sizeof *used);
+    for (uint32_t i = 0; i < count; i++)
+        if (classes[i].value)
+            set_add(used, (uint32_t)(places - 1), (uint32_t)classes[i].value);
     for (uint32_t i = 0; i < count; i++) {
         uint64_t value;
+        if (classes[i].value)
+            continue;
         do
             value = random_next(&seed) & VALUE_MASK;
         while ((uint32_t)value == 0 || !set_add(used, (uint32_t)(places - 1), (uint32_t)value));

@@ -19,6 +19,8 @@ struct value_class;
 
 // Gives each class its value; the same seed gives the same values.
 void values_fill(struct value_class *classes, uint32_t count, uint64_t seed);
+// The same for classes whose value is 0 alone; the others keep theirs.
+void values_fill_rest(struct value_class *classes, uint32_t count, uint64_t seed);
 
 // Gives each class another secondary value: an ambiguity of one frame is gone in the next one.
 // `state` is a stream of random_next. Tables must be told: discovery_renew.

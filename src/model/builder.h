@@ -67,3 +67,6 @@ void body_build(struct body *out, enum body_kind kind, struct builder *b,
                 const struct model_options *options, const uint32_t *terms, uint32_t term_count,
                 struct box *intersected);
 void body_free(struct body *body);
+
+// inherit.c: once the bodies are there, and before they are drawn.
+void model_inherit(struct model *m, const struct model *before);

@@ -127,6 +127,8 @@ void model_build(struct model *out, const struct csg_tree *tree, struct solid_st
     add_bodies(out, BODY_HIGHLIGHT, &b, options, &b.scene.highlights);
     if (!builder_cancelled(&b))
         body_build(&out->bodies[0], BODY_MAIN, &b, options, &b.scene.root, 1, &out->bounds);
+    if (options->before && !builder_cancelled(&b))
+        model_inherit(out, options->before);
     count_stats(out, &b);
     out->imports = builder_take_imports(&b, &out->import_count);
 

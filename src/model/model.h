@@ -80,6 +80,9 @@ struct model_options {
     // Where imported files are looked for that are not beside the .csg.
     const char *const *import_folders;
     uint32_t import_folder_count;
+    // NULL, or the model that this one takes the place of: what is known of combinations stays
+    // known where they are the same. It may be drawn meanwhile.
+    const struct model *before;
     // NULL, or once true the rest is skipped: what comes out can only be freed.
     const atomic_bool *cancelled;
 };

@@ -198,6 +198,74 @@ static void a_cancelled_model_can_be_freed(void **state)
     solid_store_delete(store);
 }
 
+static struct model build_after(const char *text, struct solid_store *store,
+                                const struct model *before)
+{
+    struct messages messages = {0};
+    struct csg_tree tree;
+    struct model m;
+    struct model_options options = MODEL_DEFAULTS;
+    size_t size = strlen(text);
+    char *copy = mem_zalloc(size + 2);
+    memcpy(copy, text, size);
+    options.before = before;
+    assert_true(csg_parse(&tree, "test.csg", copy, size, &messages));
+    model_build(&m, &tree, store, &options, &messages);
+    csg_free(&tree);
+    free(copy);
+    messages_free(&messages);
+    return m;
+}
+
+static uint64_t value_of(const struct model *m, uint32_t leaf)
+{
+    const struct sharing *s = &m->bodies[0].sharing;
+    return s->classes[s->class_of_leaf[leaf]].value;
+}
+
+// A reload goes on with the values and the combinations of the model before.
+static void what_is_known_stays_known(void **state)
+{
+    (void)state;
+    struct solid_store *store = solid_store_new();
+    struct model m = build("difference() { cube(9); cube(3); sphere(2); } cube(1);", store);
+    const struct sharing *s = &m.bodies[0].sharing;
+    uint64_t whole = value_of(&m, 0), hole = value_of(&m, 1);
+    for (uint32_t k = 1; k <= 2; k++) {
+        struct member set[] = {{s->class_of_leaf[0], 1}, {s->class_of_leaf[1], k}};
+        struct member one = set[0];
+        if (set[0].class_id > set[1].class_id) {
+            set[0] = set[1];
+            set[1] = one;
+        }
+        discovery_resolve(m.bodies[0].table, whole + k * hole, set, 2);
+        discovery_resolve(m.bodies[0].table, whole, &one, 1);
+    }
+    // Numbers change, and the lines of all.
+    struct model moved =
+        build_after("\n\ndifference() { cube(8); cube(2); sphere(1); } cube(1);", store, &m);
+    assert_true(value_of(&moved, 0) == whole && value_of(&moved, 2) == hole);
+    assert_int_equal(discovery_stats(moved.bodies[0].table).combinations, 3);
+    assert_int_equal(discovery_lookup(moved.bodies[0].table, whole + 2 * hole), SET_EMPTY);
+    // An object in front.
+    struct model more = build_after("difference() { cube(7); sphere(3); } "
+                                    "difference() { cube(8); cube(2); sphere(1); } cube(1);",
+                                    store, &moved);
+    assert_true(value_of(&more, 2) == whole && value_of(&more, 4) == hole);
+    assert_true(value_of(&more, 0) != whole && value_of(&more, 1) != hole);
+    assert_int_equal(discovery_lookup(more.bodies[0].table, whole), SET_SOLID);
+    // Another operation: the same sets mean something else.
+    struct model other =
+        build_after("\n\nintersection() { cube(8); cube(2); sphere(1); } cube(1);", store, &moved);
+    for (uint32_t k = 1; k <= 2; k++)
+        assert_int_not_equal(discovery_lookup(other.bodies[0].table, whole + k * hole), SET_SOLID);
+    model_free(&m);
+    model_free(&moved);
+    model_free(&more);
+    model_free(&other);
+    solid_store_delete(store);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -209,6 +277,7 @@ int main(void)
         cmocka_unit_test(many_marked_objects_share_bodies),
         cmocka_unit_test(too_many_corners_are_reduced),
         cmocka_unit_test(imports_are_told),
+        cmocka_unit_test(what_is_known_stays_known),
         cmocka_unit_test(a_cancelled_model_can_be_freed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
