@@ -185,7 +185,7 @@ static bool draw_with_gl(struct run *s, struct gl_result *out, struct error *err
 {
     struct render_stats stats;
     uint64_t intervals;
-    s->stage.peak_bytes = 0;
+    s->stage.peak_bytes = s->stage.model_bytes = 0;
     stage_forget(&s->stage);
     out->cold = draw(s, 0, &stats); // uploads, and may compile
     if (s->options->pictures && !write_picture(s, "gl", err))
@@ -203,6 +203,7 @@ static bool draw_with_gl(struct run *s, struct gl_result *out, struct error *err
         s->stage.settings.walk = WALK_AUTO;
     }
     out->peak_bytes = s->stage.peak_bytes;
+    out->model_bytes = s->stage.model_bytes;
     return !device_failed(s->device, err);
 }
 

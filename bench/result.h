@@ -43,7 +43,7 @@ struct gl_result {
     struct gl_kind opaque, spans;
     struct gl_kind array_opaque, array_spans; // by the paper's array
     struct batch batch[BATCHES];
-    size_t peak_bytes; // beyond the body
+    size_t peak_bytes, model_bytes; // of a frame beyond the body; of the body
 };
 
 enum { WALK_BY_HASH, WALK_BY_ARRAY, WALKS };

@@ -61,6 +61,8 @@ static void note_peak(struct stage *s, const struct render_stats *stats)
 {
     if (stats->peak_bytes > s->peak_bytes)
         s->peak_bytes = stats->peak_bytes;
+    if (stats->model_bytes > s->model_bytes)
+        s->model_bytes = stats->model_bytes;
 }
 
 double stage_draw(struct stage *s, struct device *device, uint32_t view, struct render_stats *stats)

@@ -8,9 +8,9 @@ struct stage { // {0} is valid
     struct shader shader;
     struct picture picture;
     struct render_settings settings;
-    uint32_t size;     // side of the picture
-    bool unshared;     // each primitive has a value of its own
-    size_t peak_bytes; // of the frames since this was last set to 0
+    uint32_t size;                  // side of the picture
+    bool unshared;                  // each primitive has a value of its own
+    size_t peak_bytes, model_bytes; // of the frames since these were last set to 0
 };
 
 // Reads and builds the scene several times, times in ms. Settings and

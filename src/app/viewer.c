@@ -136,6 +136,15 @@ static void print_passes(const struct render_stats *stats)
         printf("\n");
 }
 
+static void print_memory(const struct render_stats *stats)
+{
+    const double mb = 1 << 20;
+    printf("memory, MB: frame %.1f", (double)stats->peak_bytes / mb);
+    if (stats->model_bytes)
+        printf(", model %.1f", (double)stats->model_bytes / mb);
+    printf("\n");
+}
+
 static void print_stats(struct viewer *v, double shown)
 {
     const struct shot *s = &v->shown;
@@ -148,6 +157,7 @@ static void print_stats(struct viewer *v, double shown)
                (unsigned long long)s->stats.fragments, (unsigned long long)s->stats.misses);
     printf("\n");
     print_passes(&s->stats);
+    print_memory(&s->stats);
     if (s->job.loaded->number != v->reported)
         printf("load %u: %.1f ms to shown (wait %.1f, parse %.1f, model %.1f, draw %.1f, "
                "show %.1f), %u leaves\n",

@@ -24,6 +24,8 @@ void render_stats_add(struct render_stats *sum, const struct render_stats *one)
     sum->open_rays += one->open_rays;
     if (one->peak_bytes > sum->peak_bytes)
         sum->peak_bytes = one->peak_bytes;
+    if (one->model_bytes > sum->model_bytes)
+        sum->model_bytes = one->model_bytes;
     for (int i = 0; i < RENDER_PASSES && one->passes[i].name; i++)
         render_stats_pass(sum, &one->passes[i]);
 }

@@ -68,6 +68,7 @@ struct render_stats {
     uint64_t misses;                          // combinations evaluated during the frame
     uint64_t open_rays;                       // rays on which a mesh did not close
     size_t peak_bytes;                        // beyond model and outputs
+    size_t model_bytes;                       // gl: of bodies, where shaders see them
     struct render_pass passes[RENDER_PASSES]; // of devices that have them
 };
 void render_stats_add(struct render_stats *sum, const struct render_stats *one);

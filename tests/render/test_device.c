@@ -200,12 +200,16 @@ static void a_failure_is_told_once(void **state)
 static void passes_add_up_by_name(void **state)
 {
     (void)state;
-    struct render_stats sum = {.peak_bytes = 5, .passes = {{"one", 1, 2}, {"two", 4, 1}}};
-    const struct render_stats more = {
-        .peak_bytes = 3, .fragments = 7, .passes = {{"two", 0.5, 1}, {"three", 3, 4}}};
+    struct render_stats sum = {
+        .peak_bytes = 5, .model_bytes = 6, .passes = {{"one", 1, 2}, {"two", 4, 1}}};
+    const struct render_stats more = {.peak_bytes = 3,
+                                      .model_bytes = 7,
+                                      .fragments = 7,
+                                      .passes = {{"two", 0.5, 1}, {"three", 3, 4}}};
     const struct render_pass expected[] = {{"one", 1, 2}, {"two", 4.5, 2}, {"three", 3, 4}};
     render_stats_add(&sum, &more);
     assert_int_equal(sum.peak_bytes, 5);
+    assert_int_equal(sum.model_bytes, 7);
     assert_int_equal(sum.fragments, 7);
     for (size_t i = 0; i < array_count(expected); i++) {
         assert_string_equal(sum.passes[i].name, expected[i].name);

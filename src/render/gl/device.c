@@ -103,6 +103,7 @@ static bool begin(struct gl_device *d, struct gl_drawing *g)
                       g->rays->height, g->body->leaf_count, g->spans, g->err))
         return false;
     gl_work_begin(&d->work, &plan, budget, g->spans);
+    d->model.peak = d->model.used;
     gl_frame_init(&g->frame, g->body, g->rays, g->settings);
     if (!gl_frame_range(&g->frame, g->rays, g->body, &g->near, &g->far))
         g->near = g->far = g->frame.start;
@@ -140,6 +141,7 @@ static int run(struct device *device, struct gl_drawing *g)
     }
     tell_passes(g);
     g->stats->peak_bytes = d->memory.peak;
+    g->stats->model_bytes = d->model.peak;
     gl_slabs_free(&g->slabs);
     gl_context_leave(d->context);
     return rows;
