@@ -12,7 +12,7 @@
 
 static struct {
     const char *list, *scenes, *output, *pictures, *device;
-    bool opencsg, process, unshared, curves;
+    bool opencsg, process, unshared, curves, values;
     uint32_t frames, threads, size;
     double limit;
 } given = {.list = HCSG_BENCH_LIST,
@@ -41,8 +41,12 @@ static const struct option options[] = {
      0},
     {"curves", 0, OPTION_FLAG, NULL,
      "write times of all intervals by the side of the picture, 256 to\n"
-     "8192, to --output instead: for bench/plot",
+     "8192, and opaque frames, to --output instead: for bench/plot",
      &given.curves, 0, 0},
+    {"values", 0, OPTION_FLAG, NULL,
+     "write times by the hash and by the array, with values shared and\n"
+     "unshared, to --output instead: for bench/plot",
+     &given.values, 0, 0},
     {"process", 0, OPTION_FLAG, NULL,
      "the operands are .csg files: time whole runs of hcsg-render and openscad", &given.process, 0,
      0},
@@ -113,8 +117,12 @@ static bool bench_scene(FILE *tsv, struct result *r, struct error *err)
     fprintf(stderr, "%s: %s\n", program.name, r->scene->name);
     if (!device_wish_parse(&ours.gl, given.device, err))
         return false;
-    if (given.curves)
-        return curves_measure(tsv, r->scene->name, csg, &ours, err);
+    if (given.curves) {
+        struct curves_options curves = {ours, given.opencsg ? opencsg : NULL};
+        return curves_by_side(tsv, r->scene, csg, &curves, err);
+    }
+    if (given.values)
+        return curves_by_values(tsv, r->scene->name, csg, &ours, err);
     if (!measure_scene(r, csg, &ours, err))
         return false;
     const struct opponent_options theirs = {.program = opencsg,
@@ -144,7 +152,7 @@ static bool bench_scenes(FILE *tsv, char **names, int count, struct error *err)
         r->scene = &scenes.items[i];
         ok = bench_scene(tsv, r, err);
     }
-    if (ok && !given.curves)
+    if (ok && !given.curves && !given.values)
         report_tables(stdout, results, done);
     for (uint32_t i = 0; i < done; i++)
         result_free(&results[i]);
@@ -177,8 +185,8 @@ static bool bench_processes(FILE *tsv, char **files, int count, struct error *er
 static bool run(char **operands, int count, struct error *err)
 {
     FILE *tsv = NULL;
-    if (given.curves && !given.output) {
-        error_set(err, "--curves needs --output");
+    if ((given.curves || given.values) && !given.output) {
+        error_set(err, "%s needs --output", given.curves ? "--curves" : "--values");
         return false;
     }
     if (given.output) {

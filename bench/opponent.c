@@ -57,11 +57,14 @@ static void read_output(struct result *r, struct opencsg_result *to, char *text)
         samples_add(&to->frames, warm_up);
 }
 
-static bool run_setting(struct result *r, int setting, const char *csg,
-                        const struct opponent_options *o, struct error *err)
+bool opponent_measure_setting(struct result *r, int setting, const char *csg,
+                              const struct opponent_options *o, struct error *err)
 {
     const struct setting *s = &opencsg_settings[setting];
-    char size[16], limit[32], picture[4096];
+    char size[16], limit[32], threads[16], picture[4096];
+    // Mesa's software rasterizer takes as many threads as there are processors unless it is told.
+    snprintf(threads, sizeof threads, "%u", o->threads);
+    setenv("LP_NUM_THREADS", threads, 1);
     snprintf(size, sizeof size, "%u", o->size);
     snprintf(limit, sizeof limit, "%g", o->limit);
     struct command c = command_with_display();
@@ -98,13 +101,9 @@ static bool run_setting(struct result *r, int setting, const char *csg,
 bool opponent_measure(struct result *out, const char *csg, const struct opponent_options *options,
                       struct error *err)
 {
-    // Mesa's software rasterizer takes as many threads as there are processors unless it is told.
-    char threads[16];
-    snprintf(threads, sizeof threads, "%u", options->threads);
-    setenv("LP_NUM_THREADS", threads, 1);
     bool ok = true;
     for (int i = 0; ok && i < OPENCSG_SETTINGS; i++)
-        ok = run_setting(out, i, csg, options, err);
+        ok = opponent_measure_setting(out, i, csg, options, err);
     return ok;
 }
 

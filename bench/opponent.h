@@ -9,7 +9,9 @@ struct opponent_options {
     const char *pictures; // folder for a picture of the first view, or NULL
 };
 
-// Fills the opponents' fields of *out.
+// Fills the field of one of the settings in *out, and those of all of them.
+bool opponent_measure_setting(struct result *out, int setting, const char *csg,
+                              const struct opponent_options *options, struct error *err);
 bool opponent_measure(struct result *out, const char *csg, const struct opponent_options *options,
                       struct error *err);
 

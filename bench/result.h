@@ -11,7 +11,7 @@
 enum { MEMORY_BUDGET = 256 }; // MB of a frame beside model and picture
 
 // OpenCSG's settings that are tried.
-enum { OPENCSG_SETTINGS = 4 };
+enum { OPENCSG_BOXES = 1, OPENCSG_SETTINGS = 4 }; // boxes: mostly the fastest
 struct setting {
     const char *name, *algorithm;
     bool boxes;

@@ -27,13 +27,23 @@ grep -qx "hcsg-bench: --device: expected auto, cpu or gl, got 'gpu'" stderr ||
 
 # Each frame takes longer than the limit: one size.
 measure --curves --device=cpu -o curves.tsv less >tables 2>stderr || fault "$(cat stderr)"
-[ ! -s tables ] && [ "$(cut -f 1,2,5 curves.tsv | tail -n +2)" = 'less	curve_cpu_256_ms	1' ] ||
-    fault "curves: $(cat curves.tsv)"
+[ ! -s tables ] && [ "$(cut -f 1,2,5 curves.tsv | tail -n +2)" = "less	curve_transparent_cpu_256_ms	1
+less	curve_opaque_cpu_256_ms	1" ] || fault "curves: $(cat curves.tsv)"
 ! measure --curves less 2>stderr || fault 'curves to nowhere'
 grep -qx 'hcsg-bench: --curves needs --output' stderr || fault "curves: $(cat stderr)"
+# 20 of the 21 meshes share a value, or each has its own; the crossings are the same.
+measure --values --device=cpu -o values.tsv less >tables 2>stderr || fault "$(cat stderr)"
+[ ! -s tables ] && [ "$(grep '_count	' values.tsv | cut -f 2,3)" = "values_shared_count	2
+values_unshared_count	21" ] && [ "$(grep '_crossings	' values.tsv | cut -f 3 | uniq | wc -l)" = 1 ] &&
+    [ "$(grep -c 'shared_cpu\(array\)*_ms	' values.tsv)" = 4 ] || fault "values: $(cat values.tsv)"
 command -v python3 >/dev/null || exit $failed
-printf 'less\tcurve_cpu_512_ms\t40\t40\t1\nless\tcurve_gl3_256_ms\t2\t2\t1\n' >>curves.tsv
-"$source/bench/plot" curves.tsv . >/dev/null || fault 'plot'
-[ "$(grep -c '<polyline' curve-less.svg)" = 2 ] && [ "$(grep -c '<circle' curve-less.svg)" = 3 ] &&
+printf 'less\tcurve_%s_ms\t40\t40\t1\n' transparent_cpu_512 transparent_gl3_256 >>curves.tsv
+cat values.tsv >>curves.tsv
+"$source/bench/plot" curves.tsv . >tables || fault 'plot'
+[ "$(grep -c 'fill="none"' curve-less.svg)" = 3 ] && [ "$(grep -c '<circle' curve-less.svg)" = 4 ] &&
     grep -q '>512</text>' curve-less.svg || fault "plot: $(cat curve-less.svg)"
+[ "$(grep -c 'fill="none"' values.svg)" = 4 ] && [ "$(grep -c '<circle' values.svg)" = 4 ] ||
+    fault "plot: $(cat values.svg)"
+grep -qx '| transparent gl3 | 40.0 | – |' tables && grep -q '^| 21 | unshared | 0.00 |' tables ||
+    fault "plot: $(cat tables)"
 exit $failed
