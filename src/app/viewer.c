@@ -156,6 +156,10 @@ static void print_stats(struct viewer *v, double shown)
         printf(", walked %llu surfaces, %llu combinations new",
                (unsigned long long)s->stats.fragments, (unsigned long long)s->stats.misses);
     printf("\n");
+    if (s->stats.waits.count)
+        printf("waits for the graphics processor: %llu, %.2f ms, longest %.2f ms\n",
+               (unsigned long long)s->stats.waits.count, 1e3 * s->stats.waits.seconds,
+               1e3 * s->stats.waits.longest);
     print_passes(&s->stats);
     print_memory(&s->stats);
     if (s->job.loaded->number != v->reported)

@@ -43,7 +43,7 @@ struct discovery *discovery_new(const struct expr *e, const struct sharing *s)
     // Never two at one place at one time.
     c->identity = hash_mix((uint64_t)(clock_seconds() * 1e9) ^ hash_mix((uintptr_t)c));
     pthread_mutex_init(&c->lock, NULL);
-    atomic_init(&c->hot.table, table_new(TABLE_BITS_FIRST));
+    atomic_init(&c->hot.table, table_new(TABLE_BITS_FIRST, 0));
     return &c->hot;
 }
 
@@ -75,7 +75,7 @@ void discovery_clear(struct discovery *d)
     arena_free(&c->sets);
     c->rebuilds = 0;
     c->version++;
-    atomic_store_explicit(&d->table, table_new(TABLE_BITS_FIRST), memory_order_release);
+    atomic_store_explicit(&d->table, table_new(TABLE_BITS_FIRST, c->version), memory_order_release);
 }
 
 // A stored set is the number of its members, then for each the distance to the class before,
@@ -145,7 +145,7 @@ static void remember(struct combinations *c, uint64_t key, bool solid, const str
 {
     struct table *before = current(c);
     bool stored;
-    c->version++;
+    before->version = ++c->version;
     struct table *t = table_add(before, key, solid, NULL, &stored);
     if (stored)
         t->sets[table_place(t, key)] = keep_set(c, set, count);
@@ -259,7 +259,7 @@ void discovery_inherit(struct discovery *d, struct discovery *from, const uint32
     if (t->count > 0 && t->count <= DISCOVERY_INHERITED) {
         discovery_settle(d);
         table_delete(current(c));
-        atomic_store_explicit(&d->table, table_new(t->bits), memory_order_release);
+        atomic_store_explicit(&d->table, table_new(t->bits, ++c->version), memory_order_release);
         for (uint32_t i = 0; i < table_capacity(t); i++) {
             uint64_t record = atomic_load_explicit(&t->records[i], memory_order_relaxed);
             if (table_age(record))
@@ -275,7 +275,7 @@ void discovery_renew(struct discovery *d)
     struct combinations *c = whole(d);
     struct table *t = current(c);
     discovery_settle(d);
-    c->version++;
+    t->version = ++c->version;
     for (uint32_t i = 0; i < table_capacity(t); i++)
         if (t->sets[i])
             table_renew(t, i, key_of_set(c->sharing, t->sets[i]));

@@ -22,9 +22,10 @@ static uint64_t get(const struct table *t, uint32_t place)
 static void put(struct table *t, uint32_t place, uint64_t record)
 {
     atomic_store_explicit(&t->records[place], record, memory_order_relaxed);
+    t->written[place >> TABLE_BLOCK_BITS] = t->version;
 }
 
-struct table *table_new(uint32_t bits)
+struct table *table_new(uint32_t bits, uint64_t version)
 {
     size_t capacity = (size_t)1 << bits;
     struct table *t = mem_aligned(64, sizeof *t + capacity * sizeof *t->records);
@@ -32,6 +33,10 @@ struct table *table_new(uint32_t bits)
     t->bits = bits;
     t->count = 0;
     t->sets = mem_zalloc(capacity * sizeof *t->sets);
+    t->version = t->born = version;
+    t->written = mem_alloc(table_blocks(t) * sizeof *t->written);
+    for (uint32_t i = 0; i < table_blocks(t); i++)
+        t->written[i] = version;
     for (size_t i = 0; i < capacity; i++)
         atomic_init(&t->records[i], 0);
     return t;
@@ -42,12 +47,14 @@ void table_delete(struct table *t)
     if (!t)
         return;
     free(t->sets);
+    free(t->written);
     free(t);
 }
 
 size_t table_bytes(const struct table *t)
 {
-    return sizeof *t + table_capacity(t) * (sizeof *t->records + sizeof *t->sets);
+    return sizeof *t + table_capacity(t) * (sizeof *t->records + sizeof *t->sets) +
+           table_blocks(t) * sizeof *t->written;
 }
 
 struct item { // a record on its way to a place, without ages
@@ -112,7 +119,7 @@ bool table_insert(struct table *t, uint64_t key, bool solid, const unsigned char
 // A larger table with all records of `t` that have a place in it; those without are counted.
 static struct table *table_grown(const struct table *t, uint32_t bits, uint32_t *lost)
 {
-    struct table *larger = table_new(bits);
+    struct table *larger = table_new(bits, t->version);
     *lost = 0;
     for (uint32_t i = 0; i < table_capacity(t); i++) {
         uint64_t record = get(t, i);

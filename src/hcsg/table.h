@@ -33,6 +33,7 @@ enum {
     TABLE_SOLID_SHIFT = 63,
     TABLE_BITS_FIRST = 7, // 1 KB
     TABLE_BITS_MOST = 30,
+    TABLE_BLOCK_BITS = 5, // of places whose changes are told together: 256 bytes
 };
 
 struct table {
@@ -40,6 +41,9 @@ struct table {
     uint32_t bits;
     alignas(64) uint32_t count; // records
     const unsigned char **sets; // the mirror: per place the set behind the record
+    // For those who keep copies of the records: the owner counts `version` up before it writes.
+    uint64_t version, born; // of writes to come; of the first ones
+    uint64_t *written;      // per block of places: version of the last write
     alignas(64) _Atomic uint64_t records[];
 };
 
@@ -91,7 +95,13 @@ static inline uint32_t table_capacity(const struct table *t)
     return (uint32_t)1 << t->bits;
 }
 
-struct table *table_new(uint32_t bits);
+static inline uint32_t table_blocks(const struct table *t)
+{
+    return table_capacity(t) >> TABLE_BLOCK_BITS;
+}
+
+// `bits` from TABLE_BITS_FIRST; the records count as written with that version.
+struct table *table_new(uint32_t bits, uint64_t version);
 void table_delete(struct table *t); // accepts NULL
 size_t table_bytes(const struct table *t);
 

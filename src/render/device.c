@@ -15,6 +15,14 @@ void render_stats_pass(struct render_stats *stats, const struct render_pass *pas
     p->count += pass->count;
 }
 
+void render_waits_add(struct render_waits *sum, const struct render_waits *one)
+{
+    sum->count += one->count;
+    sum->seconds += one->seconds;
+    if (one->longest > sum->longest)
+        sum->longest = one->longest;
+}
+
 void render_stats_add(struct render_stats *sum, const struct render_stats *one)
 {
     sum->seconds_setup += one->seconds_setup;
@@ -26,6 +34,8 @@ void render_stats_add(struct render_stats *sum, const struct render_stats *one)
         sum->peak_bytes = one->peak_bytes;
     if (one->model_bytes > sum->model_bytes)
         sum->model_bytes = one->model_bytes;
+    sum->table_bytes += one->table_bytes;
+    render_waits_add(&sum->waits, &one->waits);
     for (int i = 0; i < RENDER_PASSES && one->passes[i].name; i++)
         render_stats_pass(sum, &one->passes[i]);
 }

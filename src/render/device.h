@@ -62,13 +62,22 @@ struct render_pass {
 };
 enum { RENDER_PASSES = 12 };
 
+// What the processor waited for the graphics processor.
+struct render_waits {
+    uint64_t count;
+    double seconds, longest;
+};
+void render_waits_add(struct render_waits *sum, const struct render_waits *one);
+
 struct render_stats {
     double seconds_setup, seconds_draw;
-    uint64_t fragments;                       // crossings made
-    uint64_t misses;                          // combinations evaluated during the frame
-    uint64_t open_rays;                       // rays on which a mesh did not close
-    size_t peak_bytes;                        // beyond model and outputs
-    size_t model_bytes;                       // gl: of bodies, where shaders see them
+    uint64_t fragments;   // crossings made
+    uint64_t misses;      // combinations evaluated during the frame
+    uint64_t open_rays;   // rays on which a mesh did not close
+    size_t peak_bytes;    // beyond model and outputs
+    size_t model_bytes;   // gl: of bodies, where shaders see them
+    uint64_t table_bytes; // gl: of tables, sent there
+    struct render_waits waits;
     struct render_pass passes[RENDER_PASSES]; // of devices that have them
 };
 void render_stats_add(struct render_stats *sum, const struct render_stats *one);

@@ -63,7 +63,8 @@ static void bytes_come_back(void **state)
     gl_buffer_fill(&b, 0, b.size, UINT32_MAX);
     gl_buffer_copy(&a, 20, &b, 40, 80);
 
-    assert_true(gl_readback_start(&r, &memory, "read", &b, 0, b.size, &err));
+    assert_true(
+        gl_readback_start(&r, &memory, "read", &(struct gl_part){&b, 0, b.size, NULL}, 1, &err));
     const uint32_t *back = gl_readback_wait(&r, &err);
     assert_non_null(back);
     for (uint32_t i = 0; i < 100; i++) {
@@ -75,8 +76,9 @@ static void bytes_come_back(void **state)
         assert_int_equal(back[i], expected);
     }
     assert_int_equal(memory.used, 3 * sizeof numbers);
-    assert_true(gl_readback_start(&r, &memory, "read", &a, 12, 4, &err)); // gives up nothing
-    assert_true(gl_readback_start(&r, &memory, "read", &a, 8, 4, &err));
+    assert_true(gl_readback_start(&r, &memory, "read", &(struct gl_part){&a, 12, 4, NULL}, 1,
+                                  &err)); // gives up nothing
+    assert_true(gl_readback_start(&r, &memory, "read", &(struct gl_part){&a, 8, 4, NULL}, 1, &err));
     while (!gl_readback_ready(&r))
         ;
     back = gl_readback_wait(&r, &err);
@@ -140,7 +142,8 @@ static void passes_are_measured(void **state)
     for (uint32_t i = 0; i < 1000; i++)
         sum = sum * 3 + i;
     struct gl_readback r = {0};
-    assert_true(gl_readback_start(&r, &memory, "read", &n, 0, n.size, &err));
+    assert_true(
+        gl_readback_start(&r, &memory, "read", &(struct gl_part){&n, 0, n.size, NULL}, 1, &err));
     const uint32_t *back = gl_readback_wait(&r, &err);
     assert_int_equal(back[63], 1);
     assert_int_equal(back[64], 1 + 200 * sum);

@@ -40,6 +40,11 @@ static void frames_tell_their_passes(void **state)
             sum += p->seconds;
         }
         assert_true(sum > 0);
+        // Numbers of crossings, what rays met, intervals; before, what they did not know.
+        assert_int_equal(stats.waits.count, i ? 3 : 5);
+        assert_true(stats.waits.longest > 0 && stats.waits.longest <= stats.waits.seconds);
+        assert_int_equal(pass_of(&stats, "readback")->count, stats.waits.count);
+        assert_int_equal(stats.table_bytes > 0, i == 0);
         assert_int_equal(pass_of(&stats, "scatter")->count, 1); // one band, one slab
         assert_int_equal(pass_of(&stats, "resolve")->count, 1);
         // Only the first picture meets combinations that are unknown.

@@ -58,7 +58,7 @@ static struct table *add(struct table *t, uint64_t key, bool *stored)
 static void layout_is_as_documented(void **state)
 {
     (void)state;
-    struct table *t = table_new(TABLE_BITS_FIRST);
+    struct table *t = table_new(TABLE_BITS_FIRST, 0);
     assert_int_equal(table_capacity(t) * sizeof t->records[0], 1024);
     assert_int_equal((uintptr_t)t->records % 64, 0);
     uint64_t key = 0x7fffff00000001u;
@@ -79,7 +79,7 @@ static void random_keys_at_every_load(void **state)
     (void)state;
     enum { N = 5000 };
     uint64_t random = 11, *keys = mem_alloc(N * sizeof *keys);
-    struct table *t = table_new(TABLE_BITS_FIRST);
+    struct table *t = table_new(TABLE_BITS_FIRST, 0);
     uint32_t capacity = table_capacity(t);
     for (uint32_t i = 0; i < N; i++) {
         keys[i] = random_next(&random) & VALUE_MASK;
@@ -107,7 +107,7 @@ static void random_keys_at_every_load(void **state)
 static void check_regular(uint64_t (*key_of)(uint32_t i), uint32_t count)
 {
     uint64_t *keys = mem_alloc(count * sizeof *keys);
-    struct table *t = table_new(TABLE_BITS_FIRST);
+    struct table *t = table_new(TABLE_BITS_FIRST, 0);
     for (uint32_t i = 0; i < count; i++) {
         keys[i] = key_of(i);
         bool stored;
@@ -158,7 +158,7 @@ static void one_primary_key_for_all(void **state)
     (void)state;
     uint64_t stored_keys[200], others[60];
     uint32_t stored_count = 0;
-    struct table *t = table_new(TABLE_BITS_FIRST);
+    struct table *t = table_new(TABLE_BITS_FIRST, 0);
     bool stored;
     for (uint32_t i = 0; i < 60; i++) {
         others[i] = hash_mix(i) & VALUE_MASK;
@@ -187,7 +187,7 @@ static void refused_insertion_changes_no_record(void **state)
 {
     (void)state;
     uint64_t random = 12;
-    struct table *t = table_new(TABLE_BITS_FIRST);
+    struct table *t = table_new(TABLE_BITS_FIRST, 0);
     uint32_t refused = 0;
     for (int i = 0; i < 2000; i++) {
         uint64_t key = random_next(&random) & VALUE_MASK, before[128];
@@ -207,7 +207,7 @@ static void refused_insertion_changes_no_record(void **state)
 static void renewal_changes_secondary_keys(void **state)
 {
     (void)state;
-    struct table *t = table_new(TABLE_BITS_FIRST);
+    struct table *t = table_new(TABLE_BITS_FIRST, 0);
     bool stored;
     for (uint32_t i = 0; i < 100; i++)
         t = add(t, hash_mix(i) & VALUE_MASK, &stored);
@@ -221,11 +221,44 @@ static void renewal_changes_secondary_keys(void **state)
     table_delete(t);
 }
 
+// A copy that takes over the blocks written since it last looked is the table.
+static void copies_follow_by_blocks(void **state)
+{
+    (void)state;
+    struct table *t = table_new(TABLE_BITS_FIRST, 1);
+    static uint64_t copy[1 << 14];
+    uint64_t random = 5, version = 0, born = 0;
+    uint32_t taken = 0, tables = 0;
+    bool stored;
+    for (int i = 0; i < 3000; i++) {
+        t->version++;
+        t = add(t, random_next(&random) & VALUE_MASK, &stored);
+        if (i % 10)
+            continue;
+        tables += born != t->born;
+        version = born == t->born ? version : 0;
+        born = t->born;
+        for (uint32_t b = 0; b < table_blocks(t); b++)
+            if (t->written[b] > version) {
+                for (uint32_t k = b << TABLE_BLOCK_BITS; k < (b + 1) << TABLE_BLOCK_BITS; k++)
+                    copy[k] = t->records[k];
+                taken++;
+            }
+        version = t->version;
+        for (uint32_t k = 0; k < table_capacity(t); k++)
+            assert_true(copy[k] == t->records[k]);
+    }
+    assert_int_equal(table_capacity(t), 4096);
+    assert_int_equal(tables, 6); // 128, 256, ... places
+    assert_in_range(taken, 300, 300 * table_blocks(t) / 4);
+    table_delete(t);
+}
+
 static void ages_stay_low(void **state)
 {
     (void)state;
     for (uint32_t bits = 7; bits <= 17; bits += 2) {
-        struct table *t = table_new(bits);
+        struct table *t = table_new(bits, 0);
         uint64_t random = bits;
         uint32_t count = (uint32_t)((uint64_t)table_capacity(t) * 80 / 100);
         while (t->count < count) {
@@ -256,6 +289,7 @@ int main(void)
         cmocka_unit_test(one_primary_key_for_all),
         cmocka_unit_test(refused_insertion_changes_no_record),
         cmocka_unit_test(renewal_changes_secondary_keys),
+        cmocka_unit_test(copies_follow_by_blocks),
         cmocka_unit_test(ages_stay_low),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

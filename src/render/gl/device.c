@@ -39,7 +39,7 @@ struct gl_device {
 static void evict(struct resident *r)
 {
     gl_scene_free(&r->scene);
-    gl_buffer_free(&r->table.records);
+    gl_table_free(&r->table);
     gl_buffer_free(&r->array.nodes);
     *r = (struct resident){0};
 }
@@ -142,6 +142,7 @@ static int run(struct device *device, struct gl_drawing *g)
     tell_passes(g);
     g->stats->peak_bytes = d->memory.peak;
     g->stats->model_bytes = d->model.peak;
+    g->stats->waits = d->work.readback.waits;
     gl_slabs_free(&g->slabs);
     gl_context_leave(d->context);
     return rows;
@@ -177,9 +178,10 @@ static bool read_surfaces(struct gl_drawing *g, const struct surface_image *out)
     const struct gl_buffer *output = &g->work->output;
     size_t n = (size_t)f->columns * (size_t)f->rows; // together: of one row, or all columns
     size_t at = (size_t)f->width * (size_t)f->band + (size_t)f->column;
-    return gl_work_read(g->work, output, 0, out->depth + at, n * 4, g->err) &&
-           gl_work_read(g->work, output, n * 4, out->leaf + at, n * 4, g->err) &&
-           gl_work_read(g->work, output, n * 8, out->face + at, n * 4, g->err);
+    const struct gl_part planes[] = {{output, 0, n * 4, out->depth + at},
+                                     {output, n * 4, n * 4, out->leaf + at},
+                                     {output, n * 8, n * 4, out->face + at}};
+    return gl_work_read(g->work, planes, array_count(planes), g->err);
 }
 
 static bool take_surfaces(struct gl_drawing *g, enum gl_taken what)

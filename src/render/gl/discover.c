@@ -6,21 +6,72 @@
 
 #include <stdlib.h>
 
+enum {
+    BLOCK_BYTES = sizeof(uint64_t) << TABLE_BLOCK_BITS,
+    BLOCKS_SPARED = 3,    // so many blocks as they were go along: less work than another write
+    PART_BYTES = 1 << 20, // of a write: drivers put little aside and go on
+};
+
+const struct gl_buffer *gl_table_records(const struct gl_table *t)
+{
+    return &t->records[t->current];
+}
+
+// Writes blocks [from, to).
+static void write_blocks(struct gl_table *t, const struct table *table, uint32_t from, uint32_t to)
+{
+    const char *records = (const void *)table->records;
+    size_t end = (size_t)to * BLOCK_BYTES;
+    for (size_t at = (size_t)from * BLOCK_BYTES, step; at < end; at += step) {
+        step = end - at < PART_BYTES ? end - at : PART_BYTES;
+        gl_buffer_write(gl_table_records(t), at, records + at, step);
+        t->uploaded += step;
+    }
+}
+
+static void write_changes(struct gl_table *t, const struct table *table)
+{
+    uint32_t from = 0, to = 0; // to be written
+    for (uint32_t i = 0; i < table_blocks(table); i++) {
+        if (table->written[i] <= t->version)
+            continue;
+        if (!to || i - to > BLOCKS_SPARED) {
+            write_blocks(t, table, from, to);
+            from = i;
+        }
+        to = i + 1;
+    }
+    write_blocks(t, table, from, to);
+}
+
 bool gl_table_upload(struct gl_table *t, struct gl_memory *memory, struct discovery *d,
                      struct error *err)
 {
-    uint64_t version = discovery_version(d);
-    if (t->records.id && t->version == version)
-        return true;
+    // Nobody writes now but this thread.
     const struct table *table = atomic_load_explicit(&d->table, memory_order_acquire);
-    size_t size = (size_t)table_capacity(table) * sizeof table->records[0];
-    // Nobody writes while a frame is drawn but the thread that draws it.
-    if (!gl_buffer_fit(&t->records, memory, "table", size, err))
-        return false;
-    gl_buffer_write(&t->records, 0, (const void *)table->records, size);
-    t->shift = table->shift;
+    uint64_t version = discovery_version(d);
+    if (gl_table_records(t)->id && t->born == table->born) {
+        if (t->version != version)
+            write_changes(t, table);
+    } else {
+        struct gl_buffer *other = &t->records[!t->current];
+        size_t size = (size_t)table_blocks(table) * BLOCK_BYTES;
+        if (!gl_buffer_grow(other, memory, "table", size, err))
+            return false;
+        t->current = !t->current;
+        t->shift = table->shift;
+        t->born = table->born;
+        write_blocks(t, table, 0, table_blocks(table));
+    }
     t->version = version;
     return true;
+}
+
+void gl_table_free(struct gl_table *t)
+{
+    gl_buffer_free(&t->records[0]);
+    gl_buffer_free(&t->records[1]);
+    *t = (struct gl_table){0};
 }
 
 // The combination that one record tells.

@@ -65,6 +65,8 @@ void gl_work_begin(struct gl_work *w, const struct gl_plan *plan, size_t budget,
          spans ? (pixels + plan->fragments / 2) * sizeof(struct span_data) : pixels * 12);
     if (w->readback.buffer.size > plan->staging)
         gl_readback_free(&w->readback);
+    w->readback.timers = &w->timers;
+    w->readback.waits = (struct render_waits){0};
     m->budget = budget;
     m->peak = m->used;
 }
@@ -99,24 +101,16 @@ static void barrier_for_copies(void)
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-bool gl_work_read(struct gl_work *w, const struct gl_buffer *from, size_t offset, void *out,
-                  size_t size, struct error *err)
+bool gl_work_read(struct gl_work *w, const struct gl_part *parts, uint32_t count, struct error *err)
 {
-    barrier_for_copies();
-    for (size_t at = 0, step; at < size; at += step) {
-        step = size - at < w->plan.staging ? size - at : w->plan.staging;
-        const void *now = NULL;
-        gl_timer_begin(&w->timers, "readback");
-        bool begun =
-            gl_readback_start(&w->readback, w->memory, "readback", from, offset + at, step, err);
-        gl_timer_end(&w->timers);
-        if (begun)
-            now = gl_readback_wait(&w->readback, err);
-        if (!now)
-            return false;
-        memcpy((char *)out + at, now, step);
-    }
-    return true;
+    return gl_readback_take(&w->readback, w->memory, "readback", parts, count, w->plan.staging,
+                            err);
+}
+
+static bool read_one(struct gl_work *w, const struct gl_buffer *from, void *out, size_t size,
+                     struct error *err)
+{
+    return gl_work_read(w, &(struct gl_part){from, 0, size, out}, 1, err);
 }
 
 bool gl_work_pieces(struct gl_work *w, uint32_t pieces, struct error *err)
@@ -285,7 +279,7 @@ bool gl_work_count(struct gl_work *w, const struct gl_scene *scene, struct frame
     barrier_for_copies();
     gl_buffer_copy(&w->offsets, pixels * 4, &w->counters, offsetof(struct counters, fragments), 4);
     struct counters c;
-    if (!gl_work_read(w, &w->counters, 0, &c, sizeof c, err))
+    if (!read_one(w, &w->counters, &c, sizeof c, err))
         return false;
     *fragments = c.fragments;
     *pieces = c.wrapped ? UINT32_MAX : c.large;
@@ -300,13 +294,14 @@ bool gl_work_histogram(struct gl_work *w, const struct gl_scene *scene, struct f
     gl_buffer_write(&w->frame, 0, f, sizeof *f);
     gl_buffer_fill(&w->bins, 0, BINS * 4, 0);
     return draw(w, scene, &w->bins, "histogram", "HISTOGRAM", "HISTOGRAM PIECES", err) &&
-           gl_work_read(w, &w->bins, 0, bins, BINS * 4, err);
+           read_one(w, &w->bins, bins, BINS * 4, err);
 }
 
 bool gl_work_scatter(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
                      uint32_t fragments, bool spans, struct error *err)
 {
     size_t room = with_reserve(fragments, w->plan.fragments);
+    w->crossings = fragments;
     size_t places = room / 2 + pixels_of(f); // a ray of n crossings has n / 2 + 1 at most
     if (spans &&
         !gl_buffer_grow(&w->output, w->memory, "output", places * sizeof(struct span_data), err))
@@ -334,7 +329,7 @@ static void bind_walk(const struct gl_work *w, const struct gl_scene *scene,
     if (w->array)
         gl_buffer_bind(&w->array->nodes, BIND_NODES);
     else
-        gl_buffer_bind(&table->records, BIND_TABLE);
+        gl_buffer_bind(gl_table_records(table), BIND_TABLE);
     if (spans)
         gl_buffer_bind(&w->span_counts, BIND_SPANS);
 }
@@ -357,7 +352,7 @@ static bool walk(struct gl_work *w, const struct gl_scene *scene, const struct f
     gl_timer_end(&w->timers);
     if (!fine)
         return false;
-    return gl_work_read(w, &w->counters, 0, c, sizeof *c, err);
+    return read_one(w, &w->counters, c, sizeof *c, err);
 }
 
 // Evaluates what a round of walks has put on record; *found: how much of it is new.
@@ -366,7 +361,7 @@ static bool learn(struct gl_work *w, const struct body *body, const struct count
 {
     size_t words = c->misses < w->plan.miss_words ? c->misses : w->plan.miss_words;
     uint32_t *records = mem_alloc((words + 1) * sizeof *records);
-    bool fine = gl_work_read(w, &w->misses, 0, records, words * 4, err);
+    bool fine = read_one(w, &w->misses, records, words * 4, err);
     *found = fine ? gl_discover(body, records, words) : 0;
     free(records);
     return fine;
@@ -384,11 +379,13 @@ bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct fra
     f->claim_mask = w->plan.claims - 1;
     *stuck = 0;
     for (;;) {
+        uint64_t uploaded = table->uploaded;
         gl_timer_begin(&w->timers, "upload");
         bool there = gl_table_upload(table, w->model, body->table, err);
         gl_timer_end(&w->timers);
         if (!there)
             return false;
+        stats->table_bytes += table->uploaded - uploaded;
         f->table_shift = table->shift;
         if (!walk(w, scene, f, table, spans, &c, err))
             return false;

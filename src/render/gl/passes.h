@@ -21,6 +21,7 @@ struct gl_work {
     struct gl_buffer pixel_counts, offsets, states, output, span_counts;
     struct gl_buffer pending[2], misses, claims;
     struct gl_buffer fragments, bins;
+    uint32_t crossings;       // of the band and slab, all rays together
     struct gl_buffer sums[3]; // of the blocks of a scan
     struct gl_readback readback;
     struct gl_timers timers;      // of the passes of a picture
@@ -34,9 +35,9 @@ void gl_work_begin(struct gl_work *w, const struct gl_plan *plan, size_t budget,
 
 // The others return false when there is no room, or when the driver cannot compile or was reset.
 
-// Part of a buffer; what it holds from `offset` on goes to `out`, in as many steps as planned.
-bool gl_work_read(struct gl_work *w, const struct gl_buffer *from, size_t offset, void *out,
-                  size_t size, struct error *err);
+// Brings parts of buffers to the processor, in as many steps as planned.
+bool gl_work_read(struct gl_work *w, const struct gl_part *parts, uint32_t count,
+                  struct error *err);
 
 // Room for everything that belongs to leaves and pixels of a band of `rows` rows.
 bool gl_work_prepare(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,

@@ -2,8 +2,11 @@
 // on.
 #include "render/gl/readback.h"
 
+#include "base/clock.h"
+
 #include <assert.h>
 #include <epoxy/gl.h>
+#include <string.h>
 
 static void drop_fence(struct gl_readback *r)
 {
@@ -30,13 +33,21 @@ static bool make_room(struct gl_readback *r, struct gl_memory *memory, const cha
 }
 
 bool gl_readback_start(struct gl_readback *r, struct gl_memory *memory, const char *label,
-                       const struct gl_buffer *from, size_t offset, size_t size, struct error *err)
+                       const struct gl_part *parts, uint32_t count, struct error *err)
 {
+    size_t size = 0, at = 0;
     drop_fence(r);
+    for (uint32_t i = 0; i < count; i++)
+        size += parts[i].size;
     if (!make_room(r, memory, label, size, err))
         return false;
+    if (r->timers)
+        gl_timer_begin(r->timers, label);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); // what shaders have written
-    gl_buffer_copy(from, offset, &r->buffer, 0, size);
+    for (uint32_t i = 0; i < count; at += parts[i++].size)
+        gl_buffer_copy(parts[i].from, parts[i].offset, &r->buffer, at, parts[i].size);
+    if (r->timers)
+        gl_timer_end(r->timers); // in front of the fence: whoever has the bytes has the time
     r->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     glFlush(); // or it might stay in a queue
     return true;
@@ -54,14 +65,47 @@ const void *gl_readback_wait(struct gl_readback *r, struct error *err)
     const GLuint64 second = 1000000000;
     assert(r->fence);
     GLenum state;
+    double begun = clock_seconds();
     do
         state = glClientWaitSync(r->fence, GL_SYNC_FLUSH_COMMANDS_BIT, second);
     while (state == GL_TIMEOUT_EXPIRED && glGetGraphicsResetStatus() == GL_NO_ERROR);
     drop_fence(r);
+    double seconds = clock_seconds() - begun;
+    render_waits_add(&r->waits, &(struct render_waits){1, seconds, seconds});
     if (state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED)
         return r->data;
     error_set(err, "the driver was reset");
     return NULL;
+}
+
+enum { TOGETHER = 8 }; // parts that come at a time
+
+bool gl_readback_take(struct gl_readback *r, struct gl_memory *memory, const char *label,
+                      const struct gl_part *parts, uint32_t count, size_t most, struct error *err)
+{
+    size_t done = 0; // of the first part
+    while (count > 0) {
+        struct gl_part now[TOGETHER];
+        size_t room = most;
+        uint32_t n = 0;
+        for (; n < TOGETHER && count > 0 && room > 0; n++) {
+            size_t left = parts->size - done, size = left < room ? left : room;
+            now[n] =
+                (struct gl_part){parts->from, parts->offset + done, size, (char *)parts->to + done};
+            room -= size;
+            done = size < left ? done + size : 0;
+            parts += !done;
+            count -= !done;
+        }
+        if (!gl_readback_start(r, memory, label, now, n, err))
+            return false;
+        const char *bytes = gl_readback_wait(r, err);
+        if (!bytes)
+            return false;
+        for (uint32_t i = 0; i < n; bytes += now[i++].size)
+            memcpy(now[i].to, bytes, now[i].size);
+    }
+    return true;
 }
 
 void gl_readback_free(struct gl_readback *r)

@@ -26,14 +26,12 @@ bool gl_spans_add(struct gl_spans *s, struct gl_work *w, const struct frame_data
 {
     size_t pixels = (size_t)f->columns * (size_t)f->rows;
     uint32_t *offsets = mem_alloc((pixels + 1) * 4), *counts = mem_alloc((pixels + 1) * 4);
-    struct span *spans = NULL;
-    bool fine = gl_work_read(w, &w->offsets, 0, offsets, (pixels + 1) * 4, err) &&
-                gl_work_read(w, &w->span_counts, 0, counts, pixels * 4, err);
-    if (fine) {
-        size_t size = (offsets[pixels] / 2 + pixels) * sizeof *spans;
-        spans = mem_alloc(size);
-        fine = gl_work_read(w, &w->output, 0, spans, size, err);
-    }
+    size_t size = (w->crossings / 2 + pixels) * sizeof(struct span);
+    struct span *spans = mem_alloc(size);
+    const struct gl_part parts[] = {{&w->offsets, 0, (pixels + 1) * 4, offsets},
+                                    {&w->span_counts, 0, pixels * 4, counts},
+                                    {&w->output, 0, size, spans}};
+    bool fine = gl_work_read(w, parts, array_count(parts), err);
     if (fine) {
         array_reserve(&s->parts, &s->capacity, s->count + 1);
         struct gl_span_part *p = &s->parts[s->count++];
