@@ -61,6 +61,9 @@ bool csg_parse(struct csg_tree *out, const char *file, char *text, size_t size,
 bool csg_parse_file(struct csg_tree *out, const char *path, struct messages *messages);
 void csg_free(struct csg_tree *t); // leaves {0}
 
+// Do both say the same? Places and braces do not count; numbers are equal bit by bit.
+bool csg_equal(const struct csg_tree *a, const struct csg_tree *b);
+
 // Nodes in the order of the file, each before those below it, which come only if they are entered:
 //     csg_enter(&it, first);
 //     while ((n = csg_next(&it)))
