@@ -33,6 +33,7 @@ void build_task_free(struct build_task *t)
 {
     free(t->name);
     free(t->text);
+    report_free(&t->report);
     messages_free(&t->messages);
     *t = (struct build_task){0};
 }

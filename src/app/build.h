@@ -8,7 +8,8 @@ struct build_task {
     char *name;               // of the file, also that the text stands for; owned
     char *text;               // as file_read gives it, NULL: read the file; owned
     size_t size;              // of the text
-    struct messages messages; // the making adds its own
+    struct report report;     // of what was done before
+    struct messages messages; // of the making
     struct load_times times;  // `noticed` as asked
     struct loaded *loaded;    // what came of it, with one reference; NULL after a failure
 };

@@ -48,6 +48,10 @@ static void draw(struct shot *s, const struct drawing_job *job, struct device *d
         s->capacity = size;
     }
     memcpy(s->rgb, picture->rgb, size);
+    s->combinations = 0;
+    for (uint32_t i = 0; i < job->loaded->model.body_count; i++)
+        if (job->loaded->model.bodies[i].table)
+            s->combinations += discovery_stats(job->loaded->model.bodies[i].table).combinations;
     s->done = clock_seconds();
 }
 
@@ -152,6 +156,13 @@ bool drawing_failed(struct drawing *d, struct error *why)
     d->failure.text[0] = 0;
     uv_mutex_unlock(&d->mutex);
     return failed;
+}
+
+void drawing_cancel(struct drawing *d)
+{
+    uv_mutex_lock(&d->mutex);
+    atomic_store(&d->cancelled, true);
+    uv_mutex_unlock(&d->mutex);
 }
 
 void drawing_stop(struct drawing *d)

@@ -7,8 +7,9 @@
 struct drawing_job {
     struct loaded *loaded; // borrowed when asked; held by the shot
     struct camera camera;
-    int width, height; // of the picture
-    int divisor;       // how many pixels of the window one of the picture stands for
+    int width, height;         // of the picture
+    int for_width, for_height; // pixels of the window that it stands for
+    int divisor;               // how many of them, across, one pixel of the picture stands for
     struct render_settings settings;
     double asked; // clock_seconds
 };
@@ -19,6 +20,7 @@ struct shot { // {0} is a valid empty shot
     size_t capacity;
     double begun, done; // clock_seconds
     struct render_stats stats;
+    uint64_t combinations; // known after it
 };
 
 void shot_free(struct shot *s); // leaves {0}
@@ -34,4 +36,6 @@ void drawing_ask(struct drawing *d, const struct drawing_job *job);
 bool drawing_failed(struct drawing *d, struct error *why);
 // Exchanges *shot for the newest one; false when there is none since the last call.
 bool drawing_take(struct drawing *d, struct shot *shot);
+// Gives up the picture that is being drawn: no shot comes of it.
+void drawing_cancel(struct drawing *d);
 void drawing_stop(struct drawing *d);

@@ -2,7 +2,6 @@
 #include "app/loader.h"
 
 #include "app/build.h"
-#include "app/report.h"
 #include "app/watch.h"
 #include "base/clock.h"
 #include "base/file.h"
@@ -38,14 +37,15 @@ struct loader {
     uint32_t loads;
     double noticed;    // of the load under way
     double failed;     // `noticed` of the newest that failed
-    double exporting;  // since when openscad runs
+    double exporting;  // since when openscad runs, or ran last
+    double building;   // since when a model is made; 0: none is
     uint64_t retry_ms; // before the next try
     bool patient;      // failures may pass
 
     uv_mutex_t mutex; // guards what follows
     struct loaded *retired;
     struct loader_news news;
-    bool fresh, stopping, reload;
+    bool fresh, stopping, reload, cancel;
 };
 
 struct loaded *loaded_hold(struct loaded *s)
@@ -68,7 +68,8 @@ void loaded_release(struct loaded *s)
     uv_async_send(&l->wake);
 }
 
-static void publish(struct loader *l, struct loaded *loaded, char *message, bool failed, bool busy)
+// Takes the report over; NULL: what was said before still holds.
+static void publish(struct loader *l, struct loaded *loaded, struct report *report, bool failed)
 {
     uv_mutex_lock(&l->mutex);
     struct loaded *unseen = NULL;
@@ -76,23 +77,31 @@ static void publish(struct loader *l, struct loaded *loaded, char *message, bool
         unseen = l->news.loaded;
         l->news.loaded = loaded;
     }
-    if (message) {
-        free(l->news.message);
-        l->news.message = message;
+    if (report) {
+        report_free(&l->news.report);
+        l->news.report = *report;
+        *report = (struct report){0};
         l->news.failed = failed;
     }
-    l->news.busy = busy;
+    l->news.phase = l->job ? LOAD_EXPORT : l->building > 0 ? LOAD_BUILD : LOAD_NONE;
+    l->news.since = l->job ? l->exporting : l->building;
     l->fresh = true;
     uv_mutex_unlock(&l->mutex);
     loaded_release(unseen);
     l->options.woken(l->options.context);
 }
 
-static void fail(struct loader *l, struct messages *m)
+static void fail(struct loader *l, struct report *report)
 {
     l->failed = l->noticed;
-    messages_print(m, stderr);
-    publish(l, NULL, report_summary(m), true, l->job != NULL);
+    publish(l, NULL, report, true);
+}
+
+static void ask_build(struct loader *l, struct build_task *task)
+{
+    l->building = clock_seconds();
+    build_ask(l->build, task);
+    publish(l, NULL, NULL, false);
 }
 
 static void on_retry(uv_timer_t *timer);
@@ -153,12 +162,16 @@ static void on_built(void *context, struct build_task *task)
     struct loader *l = context;
     struct loaded *s = task->loaded;
     bool doubtful = !l->is_scad && (!s || task->size == 0);
+    l->building = 0;
     if (doubtful && try_again(l)) {
         build_retire(l->build, s);
+        publish(l, NULL, NULL, false);
         return;
     }
+    messages_print(&task->messages, stderr);
+    report_messages(&task->report, &task->messages);
     if (!s) {
-        fail(l, &task->messages);
+        fail(l, &task->report);
         return;
     }
     follow_imports(l, &s->model, task->times.started);
@@ -166,10 +179,8 @@ static void on_built(void *context, struct build_task *task)
     s->number = ++l->loads;
     s->loader = l;
     build_replace(l->build, s);
-    messages_print(&task->messages, stderr);
     // What is wrong with a newer file is more to the point.
-    char *message = l->failed > s->times.noticed ? NULL : report_summary(&task->messages);
-    publish(l, s, message, false, l->job != NULL);
+    publish(l, s, l->failed > s->times.noticed ? NULL : &task->report, false);
 }
 
 static void on_exported(void *context, struct scad_result *result, const struct error *err)
@@ -177,19 +188,24 @@ static void on_exported(void *context, struct scad_result *result, const struct 
     struct loader *l = context;
     struct build_task task = {.times.noticed = l->noticed};
     l->job = NULL;
-    if (err)
-        messages_add(&task.messages, MESSAGE_ERROR, (struct place){0}, "%s", err->text);
-    else
-        report_log(result->log, &task.messages);
+    task.times.openscad = clock_seconds() - l->exporting;
+    report_scad(&task.report, result, err);
+    report_print(&task.report, stderr);
     follow_design(l, result, !err);
-    if (result->text) {
+    if (!err && strspn(result->text, " \t\r\n") == result->size) {
+        struct error empty;
+        error_set(&empty, "%s: the design is empty", l->options.path);
+        fprintf(stderr, "%s\n", empty.text);
+        report_error(&task.report, empty.text);
+        fail(l, &task.report);
+    } else if (result->text) {
         task.name = result->name;
         task.text = result->text;
         task.size = result->size;
         result->name = result->text = NULL;
-        build_ask(l->build, &task);
+        ask_build(l, &task);
     } else {
-        fail(l, &task.messages);
+        fail(l, &task.report);
     }
     build_task_free(&task);
     scad_result_free(result);
@@ -199,16 +215,18 @@ static void begin(struct loader *l)
 {
     struct build_task task = {.name = mem_strdup(l->options.path), .times.noticed = l->noticed};
     if (!l->is_scad) {
-        build_ask(l->build, &task);
+        ask_build(l, &task);
     } else if (access(task.name, F_OK) == 0) {
         l->exporting = clock_seconds();
         l->job = scad_start(&l->loop, l->options.path,
                             &(struct scad_options){.program = l->options.openscad}, on_exported, l);
-        publish(l, NULL, NULL, false, true);
+        publish(l, NULL, NULL, false);
     } else if (!try_again(l)) {
-        messages_add(&task.messages, MESSAGE_ERROR, (struct place){0}, "%s: %s", task.name,
-                     strerror(errno));
-        fail(l, &task.messages);
+        struct error err;
+        error_set(&err, "%s: %s", task.name, strerror(errno));
+        report_error(&task.report, err.text);
+        report_print(&task.report, stderr);
+        fail(l, &task.report);
     }
     build_task_free(&task);
 }
@@ -227,6 +245,17 @@ static void load(struct loader *l, double noticed)
         scad_cancel(l->job);
     l->job = NULL;
     begin(l);
+}
+
+static void give_up(struct loader *l)
+{
+    uv_timer_stop(&l->retry);
+    if (l->job)
+        scad_cancel(l->job);
+    l->job = NULL;
+    build_cancel(l->build);
+    l->building = 0;
+    publish(l, NULL, NULL, false);
 }
 
 static void on_saved(void *context, double noticed)
@@ -251,9 +280,9 @@ static void on_wake(uv_async_t *handle)
     struct loader *l = handle->data;
     uv_mutex_lock(&l->mutex);
     struct loaded *retired = l->retired;
-    bool reload = l->reload, stopping = l->stopping;
+    bool reload = l->reload, cancel = l->cancel, stopping = l->stopping;
     l->retired = NULL;
-    l->reload = false;
+    l->reload = l->cancel = false;
     uv_mutex_unlock(&l->mutex);
     build_retire(l->build, retired);
     if (stopping) {
@@ -265,7 +294,11 @@ static void on_wake(uv_async_t *handle)
         uv_close((uv_handle_t *)&l->retry, NULL);
         for (size_t i = 0; i < array_count(l->signals); i++)
             uv_close((uv_handle_t *)&l->signals[i], NULL);
-    } else if (reload) {
+        return;
+    }
+    if (cancel)
+        give_up(l);
+    if (reload) {
         l->patient = false;
         load(l, clock_seconds());
     }
@@ -334,7 +367,7 @@ bool loader_take(struct loader *l, struct loader_news *out)
     bool fresh = l->fresh;
     if (fresh) {
         *out = l->news;
-        out->message = mem_strdup(l->news.message ? l->news.message : "");
+        out->report = report_copy(&l->news.report);
         l->news.loaded = NULL;
         l->fresh = false;
     }
@@ -342,27 +375,34 @@ bool loader_take(struct loader *l, struct loader_news *out)
     return fresh;
 }
 
-void loader_reload(struct loader *l)
+static void set_flag(struct loader *l, bool *flag)
 {
     uv_mutex_lock(&l->mutex);
-    l->reload = true;
+    *flag = true;
     uv_mutex_unlock(&l->mutex);
     uv_async_send(&l->wake);
+}
+
+void loader_reload(struct loader *l)
+{
+    set_flag(l, &l->reload);
+}
+
+void loader_cancel(struct loader *l)
+{
+    set_flag(l, &l->cancel);
 }
 
 void loader_stop(struct loader *l)
 {
     if (!l)
         return;
-    uv_mutex_lock(&l->mutex);
-    l->stopping = true;
-    uv_mutex_unlock(&l->mutex);
-    uv_async_send(&l->wake);
+    set_flag(l, &l->stopping);
     uv_thread_join(&l->thread);
     uv_loop_close(&l->loop);
     loaded_free(l->retired);
     loaded_free(l->news.loaded);
     uv_mutex_destroy(&l->mutex);
-    free(l->news.message);
+    report_free(&l->news.report);
     free(l);
 }

@@ -1,5 +1,6 @@
 // loader.h - follows the file and hands over the models made of it, on a thread of its own.
 #pragma once
+#include "app/report.h"
 #include "model/model.h"
 #include "render/shade.h"
 
@@ -9,6 +10,7 @@ struct load_times { // clock_seconds
     double noticed; // the file event, or the start
     double started; // reading, after the event settled and openscad ended
     double parsed, built;
+    double openscad; // how long it ran; 0: it was not needed
 };
 
 // One loaded model, shared by the threads that show it.
@@ -39,17 +41,21 @@ struct loader_options {
     void *context;
 };
 
+enum load_phase { LOAD_NONE, LOAD_EXPORT, LOAD_BUILD };
+
 struct loader_news {
     struct loaded *loaded; // newer than the last one taken, now held by the taker; or NULL
-    char *message; // what there is to say about the file as it is now, "" when nothing; owned
-    bool failed;   // the message says why there is no newer model
-    bool busy;     // openscad runs
-    bool ended;    // SIGINT or SIGTERM came
+    struct report report;  // all there is to say about the file as it is now; owned by the taker
+    bool failed;           // the report says why there is no newer model
+    enum load_phase phase; // what goes on: openscad runs, or a model is made
+    double since;          // clock_seconds
+    bool ended;            // SIGINT or SIGTERM came
 };
 
 struct loader *loader_start(const struct loader_options *options, struct error *err);
 // False when nothing is new since the last call.
 bool loader_take(struct loader *l, struct loader_news *out);
 void loader_reload(struct loader *l); // as if the file had been saved
+void loader_cancel(struct loader *l); // gives up what goes on, until the file is saved again
 // All models have to be released before.
 void loader_stop(struct loader *l);

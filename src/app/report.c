@@ -1,53 +1,98 @@
-// report.c - what the user is told about a load.
+// report.c - what the user is told about a load, line by line.
 #include "app/report.h"
 
 #include "base/mem.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-static size_t put_message(char *text, size_t used, size_t size, const struct message *m)
+// Takes the text over.
+static void add(struct report *r, enum report_kind kind, char *text, uint32_t place_length)
 {
-    const char *source = m->source ? m->source : "";
-    int n = snprintf(text + used, size - used, "%s%s%s%s", used ? "\n" : "", m->text,
-                     *source ? "\n" : "", source);
-    return n > 0 && (size_t)n < size - used ? used + (size_t)n : size - 1;
-}
-
-char *report_summary(const struct messages *m)
-{
-    enum { SHOWN = 4, SIZE = 8192 };
-    char *text = mem_zalloc(SIZE);
-    size_t used = 0;
-    uint32_t shown = 0;
-    for (int warnings = 0; warnings < 2; warnings++)
-        for (uint32_t i = 0; i < m->count && shown < SHOWN; i++)
-            if ((m->items[i].level == MESSAGE_WARNING) == warnings) {
-                used = put_message(text, used, SIZE, &m->items[i]);
-                shown++;
-            }
-    if (m->warnings + m->errors > shown)
-        snprintf(text + used, SIZE - used, "\n(and %u more)", m->warnings + m->errors - shown);
-    return text;
-}
-
-void report_log(const char *log, struct messages *m)
-{
-    static const struct {
-        const char *prefix;
-        enum message_level level;
-    } kinds[] = {{"ERROR: ", MESSAGE_ERROR},
-                 {"WARNING: ", MESSAGE_WARNING},
-                 {"DEPRECATED: ", MESSAGE_WARNING}};
-    while (*log) {
-        size_t length = strcspn(log, "\n");
-        if (strncmp(log, "ECHO: ", 6) == 0)
-            fprintf(stderr, "%.*s\n", (int)length, log);
-        for (size_t k = 0; k < array_count(kinds); k++) {
-            size_t skip = strlen(kinds[k].prefix);
-            if (strncmp(log, kinds[k].prefix, skip) == 0)
-                messages_add(m, kinds[k].level, (struct place){0}, "%.*s", (int)(length - skip),
-                             log + skip);
-        }
-        log += length + (log[length] == '\n');
+    if (++r->kinds[kind] > REPORT_KEPT) {
+        free(text);
+        return;
     }
+    array_reserve(&r->lines, &r->capacity, (size_t)r->count + 1);
+    r->lines[r->count++] = (struct report_line){kind, text, place_length};
+}
+
+void report_messages(struct report *r, const struct messages *m)
+{
+    for (uint32_t i = 0; i < m->count; i++)
+        add(r, m->items[i].level == MESSAGE_ERROR ? REPORT_ERROR : REPORT_WARNING,
+            mem_strdup(m->items[i].text), m->items[i].place_length);
+    if (m->errors > MESSAGES_KEPT)
+        r->kinds[REPORT_ERROR] += m->errors - MESSAGES_KEPT;
+    if (m->warnings > MESSAGES_KEPT)
+        r->kinds[REPORT_WARNING] += m->warnings - MESSAGES_KEPT;
+}
+
+void report_scad(struct report *r, const struct scad_result *result, const struct error *err)
+{
+    static const enum report_kind kinds[] = {[SCAD_ECHO] = REPORT_ECHO,
+                                             [SCAD_TRACE] = REPORT_TRACE,
+                                             [SCAD_WARNING] = REPORT_WARNING,
+                                             [SCAD_ERROR] = REPORT_ERROR};
+    enum { SHOWN = 2000 };
+    struct scad_message m;
+    const char *rest = result->log;
+    while (rest && scad_next_message(result, &rest, &m)) {
+        int shown = m.length < SHOWN ? (int)m.length : SHOWN, place = 0;
+        char *text = mem_alloc((size_t)shown + (m.file ? strlen(m.file) : 0) + 32), *out = text;
+        if (m.file)
+            place = sprintf(text, "%s:%u", m.file, m.line);
+        sprintf(text + place, "%s%.*s", m.file ? ": " : "", shown, m.text);
+        for (; *out; out++)
+            if ((unsigned char)*out < 32 || *out == 127)
+                *out = ' ';
+        add(r, kinds[m.level], text, (uint32_t)place);
+        free(m.file);
+    }
+    if (err && !r->kinds[REPORT_ERROR])
+        report_error(r, err->text);
+}
+
+void report_error(struct report *r, const char *text)
+{
+    add(r, REPORT_ERROR, mem_strdup(text), 0);
+}
+
+void report_print(const struct report *r, FILE *out)
+{
+    static const char *const prefixes[] = {"ECHO: ", "TRACE: ", "warning: ", ""};
+    static const char *const names[] = {"echoes", "traces", "warnings", "errors"};
+    for (uint32_t i = 0; i < r->count; i++)
+        fprintf(out, "%s%s\n", prefixes[r->lines[i].kind], r->lines[i].text);
+    for (int k = 0; k < REPORT_KINDS; k++)
+        if (r->kinds[k] > REPORT_KEPT)
+            fprintf(out, "%u more %s not shown\n", r->kinds[k] - REPORT_KEPT, names[k]);
+}
+
+struct report report_copy(const struct report *r)
+{
+    struct report copy = *r;
+    copy.lines = mem_alloc(r->count * sizeof *r->lines + 1);
+    copy.capacity = r->count;
+    for (uint32_t i = 0; i < r->count; i++) {
+        copy.lines[i] = r->lines[i];
+        copy.lines[i].text = mem_strdup(r->lines[i].text);
+    }
+    return copy;
+}
+
+void report_free(struct report *r)
+{
+    for (uint32_t i = 0; i < r->count; i++)
+        free(r->lines[i].text);
+    free(r->lines);
+    *r = (struct report){0};
+}
+
+const struct report_line *report_first(const struct report *r, enum report_kind kind)
+{
+    for (uint32_t i = 0; i < r->count; i++)
+        if (r->lines[i].kind == kind)
+            return &r->lines[i];
+    return NULL;
 }

@@ -2,9 +2,11 @@
 #include "app/viewer.h"
 
 #include "app/drawing.h"
+#include "app/gui.h"
 #include "app/input.h"
 #include "app/loader.h"
 #include "app/pace.h"
+#include "app/panels.h"
 #include "app/window.h"
 #include "base/clock.h"
 #include "base/mem.h"
@@ -19,6 +21,8 @@
 // A frame that follows the hand takes this long at most; what is slower is drawn with fewer pixels
 // and refined when nothing moved for a while.
 static const double frame_seconds = 0.033, still_seconds = 0.12;
+// What lasts longer than this is told, and how long it has lasted so often.
+static const double told_seconds = 0.5, tick_seconds = 0.1;
 
 struct viewer {
     const struct viewer_options *options;
@@ -28,16 +32,21 @@ struct viewer {
     struct drawing *drawing;
     struct loaded *loaded; // the newest
     struct shot shown;
-    bool framed;      // the camera stands
-    bool drawn;       // a shot of the newest job was shown
-    int divisor;      // of the newest job
-    double refine_at; // when a coarse job may be followed by a full one
+    bool framed;               // the camera stands
+    bool drawn;                // a shot of the newest job was shown
+    int divisor;               // of the newest job
+    double refine_at;          // when a coarse job may be followed by a full one
+    double drawing_since;      // of the newest job, until its shot comes or it is given up; 0: none
+    double shown_at, interval; // of the newest shot, and from shot to shot while something moves
+    double ticked;             // when it was told how long something lasts
     struct pace pace;
     uint32_t reported; // number of the last load whose way was printed
-    char *message;
+    struct report report;
     char note[1100]; // what the newest command has to say, "" for nothing
-    bool failed, busy, ended;
-    bool help, hide_messages, save;
+    bool failed, ended, save;
+    enum load_phase phase;
+    double phase_since;
+    struct panels panels;
 };
 
 static void wake(void *context)
@@ -60,24 +69,69 @@ static bool is_seen(const struct viewer *v)
            !glfwGetWindowAttrib(handle, GLFW_ICONIFIED);
 }
 
-static void show_state(struct viewer *v)
+static void repaint(struct viewer *v)
 {
-    char title[256], text[10000];
-    const char *name = file_name(v), *message = v->message ? v->message : "";
+    v->input.repaints = GUI_SETTLES;
+}
+
+static void show_title(struct viewer *v)
+{
+    char title[256];
+    const struct report_line *error = report_first(&v->report, REPORT_ERROR);
     if (v->failed)
-        snprintf(title, sizeof title, "%s: error: %.*s", name, (int)strcspn(message, "\n"),
-                 message);
+        snprintf(title, sizeof title, "%s: error: %s", file_name(v), error ? error->text : "");
     else
-        snprintf(title, sizeof title, "%s%s - hcsg-view", name,
-                 v->busy     ? " (openscad runs)"
-                 : v->loaded ? ""
-                             : " (loading)");
+        snprintf(title, sizeof title, "%s%s - hcsg-view", file_name(v),
+                 v->phase == LOAD_EXPORT ? " (openscad runs)"
+                 : v->loaded             ? ""
+                                         : " (loading)");
     glfwSetWindowTitle(window_handle(v->window), title);
-    window_set_text(v->window, WINDOW_TOP, v->help ? input_help : "");
-    snprintf(text, sizeof text, "%s%s%s", v->hide_messages ? "" : message,
-             *v->note && *message && !v->hide_messages ? "\n" : "", v->note);
-    window_set_text(v->window, WINDOW_BOTTOM, text);
-    v->input.exposed = true;
+}
+
+// What lasts long enough to be told; NULL for nothing. Since when, if anything goes on at all.
+static const char *doing(const struct viewer *v, double *since)
+{
+    static const char *const phases[] = {
+        [LOAD_EXPORT] = "openscad runs", [LOAD_BUILD] = "the model is made"};
+    *since = v->phase != LOAD_NONE ? v->phase_since : v->drawing_since;
+    if (*since == 0 || clock_seconds() - *since < told_seconds)
+        return NULL;
+    return v->phase != LOAD_NONE ? phases[v->phase] : "the picture is drawn";
+}
+
+static struct panel_facts gather(const struct viewer *v)
+{
+    struct panel_facts f = {.note = v->note, .report = &v->report, .failed = v->failed};
+    double since;
+    f.doing = doing(v, &since);
+    f.doing_for = clock_seconds() - since;
+    const struct shot *s = &v->shown;
+    if (s->job.loaded) {
+        const struct load_times *t = &s->job.loaded->times;
+        f.openscad = t->openscad;
+        f.load = t->built - t->started;
+        f.frame = s->done - s->begun;
+        f.rate = v->interval > 0 ? 1 / v->interval : 0;
+        f.divisor = s->job.divisor;
+        f.combinations = s->combinations;
+    }
+    return f;
+}
+
+static void paint(struct viewer *v)
+{
+    const struct panel_facts facts = gather(v);
+    gui_begin();
+    panels_draw(&v->panels, &facts);
+    const struct view_area area = panels_area(&v->panels), *old = &v->input.area;
+    if (area.x != old->x || area.y != old->y || area.width != old->width ||
+        area.height != old->height)
+        v->input.moved = true;
+    v->input.area = area;
+    window_paint(v->window, &area);
+    gui_end();
+    window_show(v->window);
+    v->ticked = clock_seconds();
 }
 
 static void take_news(struct viewer *v)
@@ -96,19 +150,26 @@ static void take_news(struct viewer *v)
         v->input.moved = true;
         v->refine_at = 0;
     }
-    free(v->message);
-    v->message = news.message;
-    *v->note = 0;
+    bool busy = news.phase != LOAD_NONE;
+    report_free(&v->report);
+    v->report = news.report;
+    if (busy && v->phase == LOAD_NONE)
+        *v->note = 0;
     v->failed = news.failed;
-    v->busy = news.busy;
+    v->phase = news.phase;
+    v->phase_since = news.since;
     v->ended = news.ended || (news.failed && !v->options->watch && !v->loaded);
-    show_state(v);
+    const struct panel_facts facts = gather(v);
+    panels_take_report(&v->panels, &facts);
+    show_title(v);
+    if (!busy)
+        repaint(v);
 }
 
 static void ask(struct viewer *v, bool refined)
 {
-    int width, height;
-    glfwGetFramebufferSize(window_handle(v->window), &width, &height);
+    v->input.area = panels_area(&v->panels);
+    int width = v->input.area.width, height = v->input.area.height;
     if (!v->loaded || width < 1 || height < 1)
         return;
     v->divisor = refined ? 1 : pace_divisor(&v->pace, width, height, frame_seconds);
@@ -118,12 +179,16 @@ static void ask(struct viewer *v, bool refined)
         .camera = v->input.camera,
         .width = (width + v->divisor - 1) / v->divisor,
         .height = (height + v->divisor - 1) / v->divisor,
+        .for_width = width,
+        .for_height = height,
         .divisor = v->divisor,
         .settings = {.epsilon = model_epsilon(&v->loaded->model, v->options->epsilon),
                      .threads = v->options->threads,
                      .memory = v->options->memory},
         .asked = clock_seconds(),
     };
+    if (v->drawing_since == 0)
+        v->drawing_since = job.asked;
     drawing_ask(v->drawing, &job);
 }
 
@@ -191,7 +256,7 @@ static void save_picture(struct viewer *v)
         snprintf(v->note, sizeof v->note, "cannot save the picture: %s", err.text);
     }
     fflush(stdout);
-    show_state(v);
+    repaint(v);
 }
 
 static void take_failure(struct viewer *v)
@@ -201,7 +266,7 @@ static void take_failure(struct viewer *v)
         return;
     fprintf(stderr, "hcsg-view: %s\n", why.text);
     snprintf(v->note, sizeof v->note, "%s", why.text);
-    show_state(v);
+    repaint(v);
 }
 
 static void take_shot(struct viewer *v)
@@ -210,13 +275,20 @@ static void take_shot(struct viewer *v)
         return;
     struct shot *s = &v->shown;
     pace_add(&v->pace, (double)s->job.width * s->job.height, s->done - s->begun);
-    window_set_picture(v->window, s->rgb, s->job.width, s->job.height, s->job.divisor > 1);
-    v->input.exposed = !is_seen(v);
-    if (!v->input.exposed)
-        window_paint(v->window);
+    window_set_picture(v->window, s->rgb, s->job.width, s->job.height, s->job.for_width,
+                       s->job.for_height);
+    if (is_seen(v))
+        paint(v);
+    else
+        v->input.repaints = 1;
+    double shown = clock_seconds(), interval = shown - v->shown_at;
+    if (interval < told_seconds)
+        v->interval = v->interval > 0 ? 0.8 * v->interval + 0.2 * interval : interval;
+    v->shown_at = shown;
     v->drawn = true;
+    v->drawing_since = 0;
     if (v->options->stats)
-        print_stats(v, clock_seconds());
+        print_stats(v, shown);
     v->reported = s->job.loaded->number;
     if (v->save && s->job.divisor == 1) {
         v->save = false;
@@ -224,32 +296,74 @@ static void take_shot(struct viewer *v)
     }
 }
 
-static void obey(struct viewer *v)
+// "--camera=..." as both programs take it.
+static void copy_camera(struct viewer *v)
 {
-    unsigned commands = v->input.commands;
-    v->input.commands = 0;
-    if (commands)
-        *v->note = 0;
-    if (commands & COMMAND_RELOAD)
+    char text[CAMERA_TEXT];
+    camera_print(&v->input.camera, text);
+    snprintf(v->note, sizeof v->note, "--camera=%s%s", text,
+             v->input.camera.orthographic ? " --projection=o" : "");
+    gui_copy(v->note);
+    printf("%s\n", v->note);
+    fflush(stdout);
+}
+
+static void give_up(struct viewer *v)
+{
+    double since;
+    doing(v, &since);
+    if (since == 0)
+        return;
+    if (v->phase != LOAD_NONE)
+        loader_cancel(v->loader);
+    else
+        drawing_cancel(v->drawing);
+    v->drawing_since = v->phase != LOAD_NONE ? v->drawing_since : 0;
+    snprintf(v->note, sizeof v->note, "given up");
+}
+
+static void obey(struct viewer *v, enum action action)
+{
+    bool *open = v->panels.open;
+    *v->note = 0;
+    switch (action) {
+    case ACTION_RELOAD:
         loader_reload(v->loader);
-    if (commands & COMMAND_HELP)
-        v->help = !v->help;
-    if (commands & COMMAND_MESSAGES)
-        v->hide_messages = !v->hide_messages;
-    if (commands & COMMAND_CAMERA) {
-        char text[CAMERA_TEXT];
-        camera_print(&v->input.camera, text);
-        printf("--camera=%s%s\n", text, v->input.camera.orthographic ? " --projection=o" : "");
-        fflush(stdout);
-        snprintf(v->note, sizeof v->note, "--camera=%s%s", text,
-                 v->input.camera.orthographic ? " --projection=o" : "");
-    }
-    if (commands & COMMAND_SAVE) {
+        break;
+    case ACTION_GIVE_UP:
+        give_up(v);
+        break;
+    case ACTION_SAVE:
         v->save = true;
         ask(v, true);
+        break;
+    case ACTION_COPY_CAMERA:
+        copy_camera(v);
+        break;
+    case ACTION_HELP:
+        open[PANEL_HELP] = !open[PANEL_HELP];
+        break;
+    case ACTION_CONSOLE:
+        open[PANEL_CONSOLE] = !open[PANEL_CONSOLE];
+        v->panels.console_by_itself = false;
+        break;
+    case ACTION_STATUS:
+        open[PANEL_STATUS] = !open[PANEL_STATUS];
+        break;
+    case ACTION_QUIT:
+        glfwSetWindowShouldClose(window_handle(v->window), GLFW_TRUE);
+        break;
+    default:
+        break;
     }
-    if (commands)
-        show_state(v);
+    repaint(v);
+}
+
+static void obey_all(struct viewer *v)
+{
+    for (uint32_t i = 0; i < v->input.action_count; i++)
+        obey(v, v->input.actions[i]);
+    v->input.action_count = 0;
 }
 
 // Asks for the pictures that are due; returns how long to wait for events, 0 for ever.
@@ -261,12 +375,25 @@ static double plan(struct viewer *v)
         v->refine_at = v->refine_at == 0 ? now : now + still_seconds;
         ask(v, false);
     }
-    if (v->divisor <= 1 || !v->drawn)
-        return 0;
-    if (now < v->refine_at)
-        return v->refine_at - now;
-    ask(v, true);
-    return 0;
+    double wait = 0;
+    if (v->divisor > 1 && v->drawn) {
+        if (now >= v->refine_at)
+            ask(v, true);
+        else
+            wait = v->refine_at - now;
+    }
+    double since, tick;
+    if (!doing(v, &since))
+        tick = since > 0 ? since + told_seconds : 0;
+    else if (now - v->ticked >= tick_seconds)
+        tick = now;
+    else
+        tick = v->ticked + tick_seconds;
+    if (tick > 0 && tick <= now)
+        v->input.repaints += v->input.repaints == 0;
+    else if (tick > 0 && (wait == 0 || tick - now < wait))
+        wait = tick - now;
+    return wait;
 }
 
 static void run(struct viewer *v)
@@ -278,22 +405,24 @@ static void run(struct viewer *v)
             return;
         take_shot(v);
         take_failure(v);
-        obey(v);
+        obey_all(v);
         double wait = plan(v);
-        if (v->input.exposed && is_seen(v)) {
-            v->input.exposed = false;
-            window_paint(v->window);
-        }
-        if (wait > 0)
+        if (v->input.repaints && is_seen(v)) {
+            v->input.repaints--;
+            paint(v);
+            glfwPollEvents();
+        } else if (wait > 0) {
             glfwWaitEventsTimeout(wait);
-        else
+        } else {
             glfwWaitEvents();
+        }
     }
 }
 
 bool viewer_run(const struct viewer_options *options, bool *ok, struct error *err)
 {
-    struct viewer v = {.options = options, .input.camera = options->camera, .reported = 0};
+    struct viewer v = {
+        .options = options, .input.camera = options->camera, .panels.open[PANEL_STATUS] = true};
     struct loader_options loading = {.path = options->path,
                                      .openscad = options->openscad,
                                      .epsilon = options->epsilon,
@@ -319,7 +448,9 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
     v.loader = v.drawing ? loader_start(&loading, err) : NULL;
     if (v.loader) {
         input_attach(&v.input, window_handle(v.window));
-        show_state(&v);
+        gui_start(window_handle(v.window));
+        show_title(&v);
+        repaint(&v);
         run(&v);
     }
     *ok = v.loaded || options->watch;
@@ -329,7 +460,8 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
     loaded_release(v.loaded);
     bool started = v.loader != NULL;
     loader_stop(v.loader);
-    free(v.message);
+    report_free(&v.report);
+    gui_stop();
     window_delete(v.window);
     return started;
 }

@@ -1,32 +1,22 @@
-// window.c - the window: shows a picture, and text over it.
+// window.c - the window: shows a picture in a part of itself.
 #include "app/window.h"
 
-#include "app/text.h"
 #include "base/mem.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-enum { TEXT_PIXELS = 14, MARGIN = 8 };
-
-struct layer {
-    GLuint texture;
-    int width, height; // 0: nothing to show
-};
 
 struct window {
     GLFWwindow *handle;
     struct rgb background;
     GLuint program, vertices;
-    GLint rectangle, mode;
-    struct layer picture, texts[WINDOW_TEXTS];
-    char *written[WINDOW_TEXTS]; // what the text layers show
-    int written_width;           // of the window when they were made
-    struct text_font *font;
-    bool fontless; // the system has none
+    GLint rectangle;
+    GLuint texture;
+    int width, height; // of the picture; 0: nothing to show
+    int for_width, for_height;
 };
 
 static const char vertex_source[] =
@@ -42,15 +32,11 @@ static const char vertex_source[] =
 static const char fragment_source[] =
     "#version 330 core\n"
     "uniform sampler2D image;\n"
-    "uniform int mode;\n" // 0: a picture, 1: the ground of text, 2: text as coverage
     "in vec2 at;\n"
     "out vec4 colour;\n"
     "void main()\n"
     "{\n"
-    "    vec4 texel = texture(image, vec2(at.x, 1 - at.y));\n"
-    "    colour = mode == 0   ? vec4(texel.rgb, 1)\n"
-    "             : mode == 1 ? vec4(0, 0, 0, 0.7)\n"
-    "                         : vec4(1, 1, 1, texel.r);\n"
+    "    colour = vec4(texture(image, vec2(at.x, 1 - at.y)).rgb, 1);\n"
     "}\n";
 
 static GLuint compile(GLenum kind, const char *source, struct error *err)
@@ -81,11 +67,8 @@ static bool make_program(struct window *w, struct error *err)
     glDeleteShader(vertex);
     glDeleteShader(fragment);
     w->rectangle = glGetUniformLocation(w->program, "rectangle");
-    w->mode = glGetUniformLocation(w->program, "mode");
     glGenVertexArrays(1, &w->vertices);
-    glGenTextures(1, &w->picture.texture);
-    for (int i = 0; i < WINDOW_TEXTS; i++)
-        glGenTextures(1, &w->texts[i].texture);
+    glGenTextures(1, &w->texture);
     return true;
 }
 
@@ -129,9 +112,6 @@ void window_delete(struct window *w)
 {
     if (!w)
         return;
-    text_font_delete(w->font);
-    for (int i = 0; i < WINDOW_TEXTS; i++)
-        free(w->written[i]);
     if (w->handle)
         glfwDestroyWindow(w->handle);
     glfwTerminate();
@@ -143,110 +123,64 @@ struct GLFWwindow *window_handle(struct window *w)
     return w->handle;
 }
 
-static void fill(struct layer *layer, GLint inner, GLenum format, const uint8_t *data, int width,
-                 int height, GLint filter)
+void window_set_picture(struct window *w, const uint8_t *rgb, int width, int height, int for_width,
+                        int for_height)
 {
-    glBindTexture(GL_TEXTURE_2D, layer->texture);
+    GLint filter = height == for_height ? GL_NEAREST : GL_LINEAR;
+    glBindTexture(GL_TEXTURE_2D, w->texture);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    if (layer->width == width && layer->height == height)
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, format, GL_UNSIGNED_BYTE, data);
+    if (w->width == width && w->height == height)
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, rgb);
     else
-        glTexImage2D(GL_TEXTURE_2D, 0, inner, width, height, 0, format, GL_UNSIGNED_BYTE, data);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    layer->width = width;
-    layer->height = height;
+    w->width = width;
+    w->height = height;
+    w->for_width = for_width;
+    w->for_height = for_height;
 }
 
-void window_set_picture(struct window *w, const uint8_t *rgb, int width, int height, bool smooth)
+// In pixels of a framebuffer of this size, from its upper left.
+static void paint(const struct window *w, const int size[2], double x, double y, double width,
+                  double height)
 {
-    fill(&w->picture, GL_RGB8, GL_RGB, rgb, width, height, smooth ? GL_LINEAR : GL_NEAREST);
-}
-
-// Looking for fonts takes time that the first picture should not wait for.
-static struct text_font *font_of(struct window *w)
-{
-    if (!w->font && !w->fontless) {
-        float scale, unused;
-        glfwGetWindowContentScale(w->handle, &scale, &unused);
-        w->font = text_font_new((int)(TEXT_PIXELS * (scale > 1 ? scale : 1) + 0.5f));
-        w->fontless = !w->font;
-    }
-    return w->font;
-}
-
-static void write_text(struct window *w, enum window_text which, int width)
-{
-    struct text_image image = {0};
-    if (w->written[which] && *w->written[which] && font_of(w))
-        text_draw(w->font, w->written[which], width - 4 * MARGIN, &image);
-    if (image.width && image.height)
-        fill(&w->texts[which], GL_R8, GL_RED, image.coverage, image.width, image.height,
-             GL_NEAREST);
-    else
-        w->texts[which].width = w->texts[which].height = 0;
-    text_image_free(&image);
-}
-
-void window_set_text(struct window *w, enum window_text which, const char *utf8)
-{
-    if (w->written[which] && strcmp(w->written[which], utf8) == 0)
-        return;
-    free(w->written[which]);
-    w->written[which] = mem_strdup(utf8);
-    write_text(w, which, w->written_width);
-}
-
-// A rectangle in pixels from the upper left of the window.
-static void paint(const struct window *w, const struct layer *layer, int mode, const int size[2],
-                  int x0, int y0, int x1, int y1)
-{
-    float sx = 2.0f / (float)size[0], sy = 2.0f / (float)size[1];
-    glUniform4f(w->rectangle, (float)x0 * sx - 1, 1 - (float)y1 * sy, (float)x1 * sx - 1,
-                1 - (float)y0 * sy);
-    glUniform1i(w->mode, mode);
-    glBindTexture(GL_TEXTURE_2D, layer->texture);
+    double sx = 2.0 / size[0], sy = 2.0 / size[1];
+    glUniform4f(w->rectangle, (float)(x * sx - 1), (float)(1 - (y + height) * sy),
+                (float)((x + width) * sx - 1), (float)(1 - y * sy));
+    glBindTexture(GL_TEXTURE_2D, w->texture);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-static void paint_text(const struct window *w, enum window_text which, const int size[2])
-{
-    const struct layer *t = &w->texts[which];
-    if (!t->width)
-        return;
-    int x = 2 * MARGIN, y = which == WINDOW_TOP ? 2 * MARGIN : size[1] - 2 * MARGIN - t->height;
-    static const struct layer none = {0};
-    paint(w, &none, 1, size, x - MARGIN, y - MARGIN, x + t->width + MARGIN, y + t->height + MARGIN);
-    paint(w, t, 2, size, x, y, x + t->width, y + t->height);
-}
-
-void window_paint(struct window *w)
+void window_paint(struct window *w, const struct view_area *area)
 {
     int size[2];
     glfwGetFramebufferSize(w->handle, &size[0], &size[1]);
     if (size[0] < 1 || size[1] < 1)
         return;
-    if (size[0] != w->written_width) {
-        w->written_width = size[0];
-        for (enum window_text i = 0; i < WINDOW_TEXTS; i++)
-            write_text(w, i, size[0]);
-    }
     glViewport(0, 0, size[0], size[1]);
+    glDisable(GL_SCISSOR_TEST);
     glClearColor((float)w->background.r / 255, (float)w->background.g / 255,
                  (float)w->background.b / 255, 1);
     glClear(GL_COLOR_BUFFER_BIT);
+    if (!w->width || area->width < 1 || area->height < 1)
+        return;
     glUseProgram(w->program);
     glBindVertexArray(w->vertices);
     glDisable(GL_BLEND);
-    if (w->picture.width)
-        paint(w, &w->picture, 0, size, 0, 0, size[0], size[1]);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    int needed = w->texts[WINDOW_TOP].height + w->texts[WINDOW_BOTTOM].height + 6 * MARGIN;
-    paint_text(w, WINDOW_TOP, size);
-    if (!w->texts[WINDOW_TOP].width || needed <= size[1])
-        paint_text(w, WINDOW_BOTTOM, size);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(area->x, size[1] - area->y - area->height, area->width, area->height);
+    // Upwards the scale is exact; sideways a coarse picture has up to one of its pixels more.
+    double height = w->for_height, width = (double)w->width * height / w->height;
+    double x =
+        w->width == w->for_width ? floor((area->width - width) / 2) : (area->width - width) / 2;
+    paint(w, size, area->x + x, area->y + floor((area->height - height) / 2), width, height);
+    glDisable(GL_SCISSOR_TEST);
+}
+
+void window_show(struct window *w)
+{
     glfwSwapBuffers(w->handle);
 }

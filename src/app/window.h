@@ -1,4 +1,4 @@
-// window.h - the window: shows a picture, and text over it.
+// window.h - the window: shows a picture in a part of itself.
 #pragma once
 #include "base/error.h"
 #include "render/scheme.h"
@@ -6,14 +6,19 @@
 struct GLFWwindow;
 struct window;
 
+struct view_area { // where the picture stands, in pixels of the window's framebuffer
+    int x, y, width, height;
+};
+
 // *err says that there is no display, or no OpenGL 3.3 on it.
 struct window *window_new(int width, int height, struct rgb background, struct error *err);
 void window_delete(struct window *w);
 struct GLFWwindow *window_handle(struct window *w);
 
-// What shows from the next window_paint on. `smooth`: the picture has fewer pixels than the window.
-void window_set_picture(struct window *w, const uint8_t *rgb, int width, int height, bool smooth);
-enum window_text { WINDOW_TOP, WINDOW_BOTTOM, WINDOW_TEXTS };
-// "" takes it away.
-void window_set_text(struct window *w, enum window_text which, const char *utf8);
-void window_paint(struct window *w);
+// What shows from the next window_paint on, in place of so many pixels of the window.
+void window_set_picture(struct window *w, const uint8_t *rgb, int width, int height, int for_width,
+                        int for_height);
+// The picture in the middle of the area, which may have changed since it was asked for; around it
+// the background.
+void window_paint(struct window *w, const struct view_area *area);
+void window_show(struct window *w); // what was painted since the last time

@@ -20,15 +20,17 @@ static size_t put_place(char *out, size_t size, struct place p)
     return n < 0 ? 0 : (size_t)n < size ? (size_t)n : size - 1;
 }
 
-static void set(struct error *err, struct place place, const char *format, va_list args)
+// Returns the length of the place in front.
+static size_t set(struct error *err, struct place place, const char *format, va_list args)
 {
     if (!err)
-        return;
+        return 0;
     size_t used = put_place(err->text, sizeof err->text, place);
     vsnprintf(err->text + used, sizeof err->text - used, format, args);
     for (char *c = err->text; *c; c++) // names from files may hold anything, a message is one line
         if ((unsigned char)*c < 32 || *c == 127)
             *c = ' ';
+    return used;
 }
 
 void error_set(struct error *err, const char *format, ...)
@@ -56,10 +58,12 @@ void messages_add(struct messages *m, enum message_level level, struct place pla
     struct error line;
     va_list args;
     va_start(args, format);
-    set(&line, place, format, args);
+    size_t used = set(&line, place, format, args);
     va_end(args);
     array_reserve(&m->items, &m->capacity, m->count + 1);
-    m->items[m->count++] = (struct message){.level = level, .text = mem_strdup(line.text)};
+    m->items[m->count++] = (struct message){.level = level,
+                                            .text = mem_strdup(line.text),
+                                            .place_length = place.line ? (uint32_t)used - 2 : 0};
 }
 
 // Long lines are shown around the column only.
@@ -95,8 +99,9 @@ void messages_append(struct messages *m, const struct messages *more)
     for (uint32_t i = 0; i < more->count && m->count < 2 * MESSAGES_KEPT; i++) {
         const struct message *one = &more->items[i];
         array_reserve(&m->items, &m->capacity, (size_t)m->count + 1);
-        m->items[m->count++] = (struct message){one->level, mem_strdup(one->text),
-                                                one->source ? mem_strdup(one->source) : NULL};
+        m->items[m->count++] =
+            (struct message){one->level, mem_strdup(one->text),
+                             one->source ? mem_strdup(one->source) : NULL, one->place_length};
     }
 }
 

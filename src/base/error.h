@@ -23,8 +23,9 @@ enum message_level { MESSAGE_WARNING, MESSAGE_ERROR };
 
 struct message {
     enum message_level level;
-    char *text;   // one line, with its place in front
-    char *source; // the line of the file it speaks of and a caret line under it, or NULL
+    char *text;            // one line, with its place in front
+    char *source;          // the line of the file it speaks of and a caret line under it, or NULL
+    uint32_t place_length; // of the "file:line:column" in front; 0 without a line
 };
 
 // Messages in the order they came. Owned text. {0} is a valid empty list.

@@ -184,6 +184,40 @@ bool scad_warning(const struct scad_result *r, struct error *err)
     return first;
 }
 
+bool scad_next_message(const struct scad_result *r, const char **rest, struct scad_message *out)
+{
+    static const struct {
+        const char *prefix;
+        enum scad_level level;
+    } kinds[] = {{"ECHO:", SCAD_ECHO},
+                 {"TRACE:", SCAD_TRACE},
+                 {"ERROR:", SCAD_ERROR},
+                 {"WARNING:", SCAD_WARNING},
+                 {"DEPRECATED:", SCAD_WARNING},
+                 {"FONT-WARNING:", SCAD_WARNING},
+                 {"EXPORT-WARNING:", SCAD_WARNING}};
+    size_t length, at, name, name_length;
+    for (const char *line; (line = next_line(rest, &length));)
+        for (size_t k = 0; k < array_count(kinds); k++) {
+            size_t skip = strlen(kinds[k].prefix);
+            if (!begins(line, length, kinds[k].prefix))
+                continue;
+            skip += skip < length && line[skip] == ' ';
+            *out = (struct scad_message){kinds[k].level, line + skip, length - skip, NULL, 0};
+            unsigned long number = 0;
+            if (out->level != SCAD_ECHO)
+                number = find_place(out->text, out->length, &at, &name, &name_length);
+            if (number)
+                out->file = find_file(r, out->text + name, name_length);
+            if (out->file) {
+                out->line = (uint32_t)number;
+                out->length = at;
+            }
+            return true;
+        }
+    return false;
+}
+
 // One line of the rule: a tab, the name with its blanks escaped, and " \" unless it is the last.
 static char *file_of_rule(const char *line, size_t length)
 {

@@ -58,3 +58,14 @@ void scad_cancel(struct scad_job *job);
 
 // Whether openscad warned; *err becomes its first warning, with the place in front.
 bool scad_warning(const struct scad_result *r, struct error *err);
+
+enum scad_level { SCAD_ECHO, SCAD_TRACE, SCAD_WARNING, SCAD_ERROR };
+struct scad_message {
+    enum scad_level level;
+    const char *text; // within the log, without its kind and place; not terminated
+    size_t length;
+    char *file; // that it names, NULL for none; the caller frees it
+    uint32_t line;
+};
+// The next message of r->log; *rest is r->log at first. False at the end.
+bool scad_next_message(const struct scad_result *r, const char **rest, struct scad_message *out);

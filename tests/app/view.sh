@@ -1,71 +1,8 @@
 #!/bin/bash
 # view.sh PROGRAM CASE - hcsg-view on a virtual screen, driven like a user does. Exits 77 without one.
 set -u
-program=$1 case=$2
-for tool in xvfb-run xdotool import compare; do
-    command -v $tool > /dev/null || { echo "SKIP: no $tool"; exit 77; }
-done
-if [ -z "${HCSG_VIEW_SCREEN:-}" ]; then
-    export HCSG_VIEW_SCREEN=1 LIBGL_ALWAYS_SOFTWARE=1
-    exec xvfb-run -a -s "-screen 0 640x480x24" "$0" "$@"
-fi
-
-work=$(mktemp -d)
-cd "$work" || exit 1
-pid=
-trap '[ -n "$pid" ] && kill -9 $pid 2> /dev/null; rm -rf "$work"' EXIT
-
-# GL drivers and fontconfig leak when the program ends; of a sanitizer's findings only ours count.
-export ASAN_OPTIONS=log_path=$work/sanitizer LSAN_OPTIONS=exitcode=0
-findings() { cat sanitizer.* err 2> /dev/null | grep -e "ERROR: AddressSan" -e "runtime error:" -e "src/base/mem.c"; }
-
-fail() {
-    echo "FAIL: $*"
-    echo "--- standard output"; tail -30 out
-    echo "--- standard error"; tail -30 err
-    exit 1
-}
-start() {
-    "$program" --size=640,480 --stats "$@" > out 2> err &
-    pid=$!
-}
-# wait_for FILE TEXT: until a line of FILE has TEXT in it.
-wait_for() {
-    for _ in $(seq 1000); do
-        grep -q -e "$2" "$1" && return
-        kill -0 $pid 2> /dev/null || fail "the program ended before '$2' came"
-        sleep 0.02
-    done
-    fail "'$2' did not come"
-}
-# shot NAME: the screen, as soon as nothing was drawn for a while.
-shot() {
-    local before=
-    while [ "$before" != "$(wc -l < out)" ]; do
-        before=$(wc -l < out)
-        sleep 0.4
-    done
-    import -window root "$1.png"
-}
-# differing A B [REGION]: number of pixels that are not the same.
-differing() {
-    convert "$1.png" -crop "${3:-640x480+0+0}" +repage 1.ppm
-    convert "$2.png" -crop "${3:-640x480+0+0}" +repage 2.ppm
-    compare -metric AE 1.ppm 2.ppm null: 2>&1 | sed 's/[^0-9].*//'
-}
-same() { [ "$(differing "$@")" -eq 0 ] || fail "pictures $1 and $2 differ ${3:-}"; }
-differ() { [ "$(differing "$@")" -gt 300 ] || fail "pictures $1 and $2 are the same ${3:-}"; }
-quit() {
-    xdotool key q
-    wait $pid || fail "exit code $? after the key q"
-    pid=
-}
-# A block of this length with a post on it.
-box() {
-    echo "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(size = [$1, 10, 10]); }"
-    echo "cube(size = [3, 4, 15]);"
-}
-above=640x340+0+0 # where no message stands
+program=$1 case=$2 tools=
+. "$(dirname "$0")/screen.sh"
 
 case $case in
 reload)
@@ -76,7 +13,7 @@ reload)
     wait_for out "load 2:"; shot second; differ first second
     box 16 | head -c 60 > a.csg # broken
     wait_for err "a.csg:1"; shot broken
-    same second broken $above; differ second broken 640x140+0+340
+    same second broken $above; differ second broken 640x140+0+310
     box 24 > new; mv new a.csg
     wait_for out "load 3:"; shot third; same first third
     rm a.csg
@@ -113,9 +50,14 @@ camera)
     done
     xdotool key ctrl+0 key ctrl+shift+v; shot diagonal; same first diagonal
     xdotool key h; shot help; differ first help
-    xdotool key h key c key p; wait_for out "^--camera=.*,55,0,25,"; wait_for out "^a-1.png"
+    xdotool key h key c; wait_for out "^--camera=.*,55,0,25,"
+    shot same_again; same first same_again
+    xdotool key i; shot bare # without the status line
+    xdotool key p; wait_for out "^a-1.png"
     [ "$(identify -format '%wx%h' a-1.png)" = 640x480 ] || fail "the saved picture has a wrong size"
-    same first a-1
+    xdotool key i key i; shot bare # without the note about the file
+    same bare a-1 640x480+0+0
+    xdotool key i
     box 15 > a.csg # the camera stays over a reload
     wait_for out "load 2:"
     quit
@@ -262,5 +204,4 @@ openscad)
     exit 1
     ;;
 esac
-findings > found && fail "$(cat found sanitizer.* 2> /dev/null)"
-echo "$case: fine"
+finish
