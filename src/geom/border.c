@@ -94,7 +94,16 @@ struct loops {
     size_t count;
     size_t *next;              // per vertex, of its edges the first that was not taken
     uint32_t *path, *position; // vertices, and where in the path each stands, from 1
+    struct vec3 middle;        // of the loop that has an area
 };
+
+static struct vec3 middle_of(const struct mesh *m, const uint32_t *loop, uint32_t count)
+{
+    struct vec3 sum = {0};
+    for (uint32_t i = 0; i < count; i++)
+        sum = vec3_add(sum, m->vertices[loop[i]]);
+    return vec3_scale(sum, 1.0 / count);
+}
 
 // Takes the loops that come back to a vertex, each once around without crossing itself.
 static bool loops_have_area(struct loops *l, uint32_t start)
@@ -114,8 +123,10 @@ static bool loops_have_area(struct loops *l, uint32_t start)
             l->position[to] = length;
             continue;
         }
-        if (has_area(l->mesh, l->path + first - 1, length - first + 1))
+        if (has_area(l->mesh, l->path + first - 1, length - first + 1)) {
+            l->middle = middle_of(l->mesh, l->path + first - 1, length - first + 1);
             return true;
+        }
         while (length > first)
             l->position[l->path[--length]] = 0;
     }
@@ -123,7 +134,8 @@ static bool loops_have_area(struct loops *l, uint32_t start)
     return false;
 }
 
-static bool edges_have_area(const struct mesh *m, const struct edge *edges, size_t count)
+static bool edges_have_area(const struct mesh *m, const struct edge *edges, size_t count,
+                            struct vec3 *middle)
 {
     uint32_t n = m->vertex_count;
     struct loops l = {.mesh = m, .edges = edges, .count = count};
@@ -135,6 +147,8 @@ static bool edges_have_area(const struct mesh *m, const struct edge *edges, size
         l.next[edges[i].from] = i;
     for (size_t i = 0; i < count && !area; i++)
         area = l.next[edges[i].from] == i && loops_have_area(&l, edges[i].from);
+    if (area)
+        *middle = l.middle;
     free(l.next);
     free(l.path);
     free(l.position);
@@ -143,11 +157,17 @@ static bool edges_have_area(const struct mesh *m, const struct edge *edges, size
 
 bool mesh_has_border(const struct mesh *m)
 {
+    struct vec3 middle;
+    return mesh_find_border(m, &middle);
+}
+
+bool mesh_find_border(const struct mesh *m, struct vec3 *middle)
+{
     if (mesh_is_balanced(m, true))
         return false;
     size_t count;
     struct edge *edges = edges_left(m, &count);
-    bool area = edges_have_area(m, edges, count);
+    bool area = edges_have_area(m, edges, count, middle);
     free(edges);
     return area;
 }

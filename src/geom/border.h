@@ -10,3 +10,5 @@ bool mesh_is_balanced(const struct mesh *m, bool as_written);
 // on one side than on the other make holes, unless these have no area, as where a corner lies
 // within an edge of its neighbour.
 bool mesh_has_border(const struct mesh *m);
+// The same; *middle is in the middle of the edges around one of them.
+bool mesh_find_border(const struct mesh *m, struct vec3 *middle);

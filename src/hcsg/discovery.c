@@ -295,6 +295,28 @@ uint64_t discovery_version(struct discovery *d)
     return version;
 }
 
+void discovery_each(struct discovery *d,
+                    void (*tell)(void *context, const struct member *set, uint32_t count),
+                    void *context)
+{
+    struct combinations *c = whole(d);
+    struct member *members = NULL;
+    uint32_t room = 0;
+    pthread_mutex_lock(&c->lock);
+    const struct table *t = current(c);
+    for (uint32_t i = 0; i < table_capacity(t); i++) {
+        if (!table_age(atomic_load_explicit(&t->records[i], memory_order_relaxed)))
+            continue;
+        const unsigned char *set = t->sets[i];
+        uint32_t count = (uint32_t)read_number(&set);
+        array_reserve(&members, &room, count);
+        read_members(set, members, count);
+        tell(context, members, count);
+    }
+    pthread_mutex_unlock(&c->lock);
+    free(members);
+}
+
 struct discovery_stats discovery_stats(struct discovery *d)
 {
     struct combinations *c = whole(d);

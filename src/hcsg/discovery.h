@@ -63,6 +63,12 @@ void discovery_inherit(struct discovery *d, struct discovery *from, const uint32
 uint64_t discovery_identity(struct discovery *d);
 uint64_t discovery_version(struct discovery *d);
 
+// Tells each combination that is known: sorted by class. Thread-safe; `tell` must not come back
+// here.
+void discovery_each(struct discovery *d,
+                    void (*tell)(void *context, const struct member *set, uint32_t count),
+                    void *context);
+
 struct discovery_stats {
     uint32_t combinations, capacity; // records and places
     double average_age, max_age;     // probes that a hit takes, counted from 1

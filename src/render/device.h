@@ -50,7 +50,10 @@ struct render_settings {
     size_t memory;    // budget in bytes for a frame beyond model and outputs; 0: 256 MB
     uint32_t slabs;   // gl: at least so many slabs of depth; 0: as many as the budget demands
     enum walk walk;
-    bool sparse;                  // where no leaf can be, outputs are neither written nor told
+    bool sparse; // where no leaf can be, outputs are neither written nor told
+    // Per leaf of the body, or NULL: the crossings with it that are listed are added. By the cpu
+    // device alone, see cost.h.
+    _Atomic uint64_t *crossings;
     const atomic_bool *cancelled; // once true, the frame ends early and means nothing; NULL: never
 };
 

@@ -35,17 +35,25 @@ static uint32_t leaf_number(struct leaf_range leaves, uint32_t i)
     return leaves.among ? leaves.among[i] : leaves.first + i;
 }
 
+static inline uint32_t crossings_of(const struct block_leaf *b, int p)
+{
+    return b->mesh ? 2 * (b->first[p + 1] - b->first[p]) : 2 * (b->enter[p] < b->leave[p]);
+}
+
 uint64_t crossings_count(struct tile *t, struct leaf_range leaves, uint32_t *counts)
 {
+    _Atomic uint64_t *per_leaf = t->frame->settings->crossings;
     uint64_t sum = 0;
     memset(counts, 0, BLOCK_PIXELS * sizeof *counts);
     for (uint32_t i = 0; i < leaves.count; i++) {
-        const struct block_leaf *b = tile_crossings(t, &t->leaves[leaf_number(leaves, i)]);
+        struct tile_leaf *l = &t->leaves[leaf_number(leaves, i)];
+        const struct block_leaf *b = tile_crossings(t, l);
         if (!b)
             continue;
         for (int p = 0; p < BLOCK_PIXELS; p++)
-            counts[p] +=
-                b->mesh ? 2 * (b->first[p + 1] - b->first[p]) : 2 * (b->enter[p] < b->leave[p]);
+            counts[p] += crossings_of(b, p);
+        for (int p = 0; p < BLOCK_PIXELS && per_leaf; p++)
+            atomic_fetch_add_explicit(&per_leaf[l->leaf], crossings_of(b, p), memory_order_relaxed);
     }
     for (int p = 0; p < BLOCK_PIXELS; p++)
         sum += counts[p];
