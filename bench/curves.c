@@ -76,7 +76,7 @@ static bool device_for(const struct course *c, const struct way *way, struct dev
     *out = NULL;
     if (!way->gl)
         *out = cpu_device_new();
-    else if (c->options->gl != DEVICE_CPU && !(*out = device_choose(c->options->gl, err)))
+    else if (c->options->gl != DEVICE_CPU && !(*out = device_choose(c->options->gl, NULL, err)))
         return false;
     if (way->gl && *out && !(*out)->description[0]) {
         device_delete(*out);

@@ -213,7 +213,7 @@ static bool measure_gl(struct run *s, struct error *err)
     struct gl_result *out = &s->result->gl;
     if (s->options->gl == DEVICE_CPU)
         return true;
-    s->device = device_choose(s->options->gl, err);
+    s->device = device_choose(s->options->gl, NULL, err);
     if (!s->device)
         return false;
     out->measured = s->device->description[0];

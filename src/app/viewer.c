@@ -419,6 +419,12 @@ static void run(struct viewer *v)
     }
 }
 
+static void say(void *context, const char *line)
+{
+    (void)context;
+    fprintf(stderr, "hcsg-view: %s\n", line);
+}
+
 bool viewer_run(const struct viewer_options *options, bool *ok, struct error *err)
 {
     struct viewer v = {
@@ -433,13 +439,15 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
                                      .woken = wake};
     v.framed = options->fixed_camera;
     struct error why;
-    struct device *device = device_choose(options->device, &why);
+    static const struct device_host host = {.say = say, .open_context = window_open_context};
+    struct device *device = device_choose(options->device, &host, &why);
     if (!device)
         *err = why;
     else
         v.window = window_new(options->width, options->height, options->scheme->background, err);
     if (!v.window) {
         device_delete(device);
+        window_close_all();
         return false;
     }
     if (options->stats)
@@ -463,5 +471,6 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
     report_free(&v.report);
     gui_stop();
     window_delete(v.window);
+    window_close_all();
     return started;
 }

@@ -72,10 +72,15 @@ static bool make_program(struct window *w, struct error *err)
     return true;
 }
 
-static void set_hints(void)
+// A window that is never shown is there for a device to draw with.
+static void set_hints(bool shown)
 {
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, shown ? 3 : 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, shown ? 3 : 5);
+    glfwWindowHint(GLFW_VISIBLE, shown);
+    if (!shown)
+        glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
@@ -84,18 +89,41 @@ static void set_hints(void)
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "hcsg-view");
 }
 
+static GLFWwindow *open_window(int width, int height, bool shown, struct error *err)
+{
+    const char *reason = NULL;
+    GLFWwindow *handle = NULL;
+    if (glfwInit()) {
+        set_hints(shown);
+        handle = glfwCreateWindow(width, height, "hcsg-view", NULL, NULL);
+    }
+    if (!handle) {
+        glfwGetError(&reason);
+        error_set(err, "cannot open a window: %s", reason ? reason : "no reason given");
+    }
+    return handle;
+}
+
+bool window_open_context(void *unused, struct error *err)
+{
+    (void)unused;
+    GLFWwindow *handle = open_window(1, 1, false, err);
+    if (handle)
+        glfwMakeContextCurrent(handle);
+    return handle;
+}
+
+void window_close_all(void)
+{
+    glfwTerminate();
+}
+
 struct window *window_new(int width, int height, struct rgb background, struct error *err)
 {
     struct window *w = mem_zalloc(sizeof *w);
-    const char *reason = NULL;
     w->background = background;
-    if (glfwInit()) {
-        set_hints();
-        w->handle = glfwCreateWindow(width, height, "hcsg-view", NULL, NULL);
-    }
+    w->handle = open_window(width, height, true, err);
     if (!w->handle) {
-        glfwGetError(&reason);
-        error_set(err, "cannot open a window: %s", reason ? reason : "no reason given");
         window_delete(w);
         return NULL;
     }
@@ -114,7 +142,6 @@ void window_delete(struct window *w)
         return;
     if (w->handle)
         glfwDestroyWindow(w->handle);
-    glfwTerminate();
     free(w);
 }
 

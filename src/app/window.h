@@ -13,6 +13,11 @@ struct view_area { // where the picture stands, in pixels of the window's frameb
 // *err says that there is no display, or no OpenGL 3.3 on it.
 struct window *window_new(int width, int height, struct rgb background, struct error *err);
 void window_delete(struct window *w);
+// A context of OpenGL 4.5 of a window that is never shown, current on this thread: for a device's
+// host. It stays until window_close_all.
+bool window_open_context(void *unused, struct error *err);
+void window_close_all(void); // when no window is used any more
+
 struct GLFWwindow *window_handle(struct window *w);
 
 // What shows from the next window_paint on, in place of so many pixels of the window.

@@ -171,11 +171,18 @@ static int run_frames(struct run *run, const struct request *r)
     return code;
 }
 
+static void say(void *context, const char *line)
+{
+    (void)context;
+    fprintf(stderr, "warning: %s\n", line);
+}
+
 int command_run(const struct request *r)
 {
     int code = EXIT_INPUT;
     struct error why;
-    struct run run = {.device = device_choose(r->device, &why), .began = clock_seconds()};
+    static const struct device_host host = {.say = say};
+    struct run run = {.device = device_choose(r->device, &host, &why), .began = clock_seconds()};
     if (!run.device)
         return command_fail(&why, EXIT_INPUT);
     run.store = solid_store_new();

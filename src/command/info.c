@@ -37,7 +37,7 @@ static void print_devices(enum device_wish wish)
     struct error why;
     printf("Device cpu: %u threads\n", parallel_workers(0));
     print_context();
-    struct device *device = device_choose(wish, &why);
+    struct device *device = device_choose(wish, NULL, &why);
     printf("Draws with: %s\n", why.text);
     device_delete(device);
 }

@@ -20,13 +20,14 @@ bool device_wish_parse(enum device_wish *out, const char *name, struct error *er
     return false;
 }
 
-struct device *device_choose(enum device_wish wish, struct error *why)
+struct device *device_choose(enum device_wish wish, const struct device_host *host,
+                             struct error *why)
 {
     struct error reason;
     struct device *gl = NULL;
     // Making a context in software only to see that it is one would take longer than many pictures.
     if (wish == DEVICE_GL || (wish == DEVICE_AUTO && gl_hardware_there(&reason)))
-        gl = gl_device_new(wish == DEVICE_GL, &reason);
+        gl = gl_device_new(wish == DEVICE_GL, host, &reason);
     if (gl)
         error_set(why, "gl, %s", gl->description);
     else if (wish == DEVICE_GL)

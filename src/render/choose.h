@@ -9,4 +9,6 @@ bool device_wish_parse(enum device_wish *out, const char *name, struct error *er
 // DEVICE_AUTO: the graphics processor where its driver can do it, else the processor. DEVICE_GL
 // also takes OpenGL in software, and NULL means that there is none. *why says what draws, and why
 // where that is not plain; or why there is nothing.
-struct device *device_choose(enum device_wish wish, struct error *why);
+// `host` may be NULL.
+struct device *device_choose(enum device_wish wish, const struct device_host *host,
+                             struct error *why);

@@ -112,6 +112,17 @@ void device_spans(struct device *d, const struct body *body, const struct rays *
 // whole nevertheless: from where a device fails, the one on the processor takes over for good.
 bool device_failed(struct device *d, struct error *why);
 
+// What a program lends to its device; what is NULL is not lent.
+struct device_host {
+    // Takes what an OpenGL driver and the compiler of its shaders have to say, one line each, from
+    // whichever thread draws. Only while shaders are developed, in the folder HCSG_SHADERS.
+    void (*say)(void *context, const char *line);
+    // Makes a context of OpenGL 4.5 of the program's current on this thread, for drivers that give
+    // none without a window. It has to stay until the device is deleted.
+    bool (*open_context)(void *context, struct error *err);
+    void *context;
+};
+
 // What makes a device: the functions above, with the same contracts, but that they return how many
 // rows from the top are done and told, and that stats are never NULL. Fewer than all: the device
 // has failed, *err says why, and it will be asked no more. A frame that was cancelled counts as

@@ -1,7 +1,8 @@
 #!/bin/bash
-# view.sh PROGRAM CASE - hcsg-view on a virtual screen, driven like a user does. Exits 77 without one.
+# view.sh PROGRAM CASE SHADERS - hcsg-view on a virtual screen, driven like a user does. Exits 77 without
+# one.
 set -u
-program=$1 case=$2 tools=
+program=$1 case=$2 shaders=$3 tools=
 . "$(dirname "$0")/screen.sh"
 
 case $case in
@@ -60,6 +61,25 @@ camera)
     xdotool key i
     box 15 > a.csg # the camera stays over a reload
     wait_for out "load 2:"
+    quit
+    ;;
+gl) # a driver that gives no context without a window, and shaders of a folder
+    mkdir none; touch none/libEGL.so.1
+    cp -r "$shaders" own
+    box 20 > a.csg
+    start a.csg
+    wait_for out "load 1:"; shot first; quit
+    export LD_LIBRARY_PATH=none HCSG_SHADERS=own
+    start --device=auto a.csg
+    wait_for out "^device: cpu; not gl: .* draws on the processor"; quit
+    start --device=gl a.csg
+    wait_for out "^device: gl, "
+    wait_for out "load 1:"; shot second
+    [ "$(differing first second)" -lt 300 ] || fail "gl draws another picture"
+    sed -i '2i no such thing' own/frame.glsl
+    xdotool key ctrl+5
+    wait_for err "^hcsg-view: shaders/frame.glsl:2: "; shot third; differ second third
+    ! grep -q "processor draws" err || fail "the shaders that were there draw no more"
     quit
     ;;
 idle)

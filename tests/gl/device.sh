@@ -1,7 +1,8 @@
 #!/bin/bash
-# device.sh HCSG-RENDER - what --device means: where OpenGL is, and where it cannot be loaded.
+# device.sh HCSG-RENDER SHADERS - what --device means: where OpenGL is, where it cannot be loaded, and
+# with shaders from a folder.
 set -eu
-render=$1
+render=$1 shaders=$2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
@@ -37,3 +38,11 @@ status=0
 grep -q '^Draws with: gl, .*OpenGL 4' info || exit 77
 "$render" --device=gl $size -o gl.png --reference=cpu.png --threshold=0,0.1% part.csg ||
     fault 'gl draws another picture'
+
+cp -r "$shaders" own
+HCSG_SHADERS=own "$render" --device=gl $size -o own.png part.csg 2>stderr && [ ! -s stderr ] &&
+    cmp own.png gl.png || fault "shaders of a folder: '$(cat stderr)'"
+sed -i '2i no such thing' own/frame.glsl
+HCSG_SHADERS=own "$render" --device=gl $size -o own.png part.csg 2>stderr && cmp own.png cpu.png &&
+    [ "$(wc -l <stderr)" = 1 ] && grep -q '^warning: shaders/frame.glsl:2: .*the processor draws' stderr ||
+    fault "a wrong shader: '$(cat stderr)'"

@@ -59,7 +59,7 @@ static void frames_tell_their_passes(void **state)
 int main(void)
 {
     struct error err;
-    struct device *device = gl_device_new(true, &err);
+    struct device *device = gl_device_new(true, NULL, &err);
     if (!device) {
         printf("skipped: %s\n", err.text);
         return 77;

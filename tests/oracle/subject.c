@@ -118,7 +118,7 @@ struct expr_token *subject_tokens(const struct expr *e, size_t *count)
 struct device *device_under_test(bool gl)
 {
     struct error why;
-    struct device *d = device_choose(gl ? DEVICE_GL : DEVICE_CPU, &why);
+    struct device *d = device_choose(gl ? DEVICE_GL : DEVICE_CPU, NULL, &why);
     if (d)
         return d;
     printf("skipped: %s\n", why.text);

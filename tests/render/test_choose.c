@@ -27,11 +27,11 @@ static void the_processor_is_always_there(void **state)
 {
     (void)state;
     struct error why;
-    struct device *d = device_choose(DEVICE_CPU, &why);
+    struct device *d = device_choose(DEVICE_CPU, NULL, &why);
     assert_non_null(d);
     assert_string_equal(why.text, "cpu");
     device_delete(d);
-    d = device_choose(DEVICE_AUTO, &why);
+    d = device_choose(DEVICE_AUTO, NULL, &why);
     assert_non_null(d);
     bool gl = strncmp(why.text, "gl, ", 4) == 0;
     assert_true(gl || strncmp(why.text, "cpu; not gl: ", 13) == 0);

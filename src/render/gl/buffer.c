@@ -36,7 +36,10 @@ bool gl_buffer_make(struct gl_buffer *b, struct gl_memory *memory, const char *l
 
     GLenum fault = glGetError();
     if (fault != GL_NO_ERROR) {
-        error_set(err, "before %s: OpenGL error 0x%x", label, fault);
+        if (fault == GL_OUT_OF_MEMORY)
+            error_set(err, "out of memory before %s", label);
+        else
+            error_set(err, "before %s: OpenGL error 0x%x", label, fault);
         return false;
     }
     GLuint id;

@@ -1,4 +1,4 @@
-// context.c - an OpenGL 4.5 context without window or display: EGL's ways to one.
+// context.c - an OpenGL 4.5 context: EGL's ways to one without a window, or one of the program's.
 #include "render/gl/context.h"
 
 #include "base/mem.h"
@@ -18,6 +18,7 @@ struct gl_context {
     struct gl_current self, before; // `before`: what was current when it was entered
     struct gl_log log;
     struct gl_facts facts;
+    bool adopted; // another one made it, and ends it
     bool entered, lost;
 };
 
@@ -87,6 +88,15 @@ static EGLContext create(EGLDisplay display, bool debug, bool told)
     return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes[0]);
 }
 
+// Inside of the context.
+static void settle(struct gl_context *c, const char *found)
+{
+    gl_facts_ask(&c->facts);
+    snprintf(c->facts.found, sizeof c->facts.found, "%s", found);
+    if (c->log.say)
+        listen(&c->log);
+}
+
 // Displays are shared by all of the process, so that none is ever terminated here: another user of
 // the same one, a window for instance, would lose its context.
 static bool try_display(struct gl_context *c, EGLDisplay display, const char *name,
@@ -117,10 +127,7 @@ static bool try_display(struct gl_context *c, EGLDisplay display, const char *na
         eglDestroyContext(display, context);
         return because(reasons, name, err.text), false;
     }
-    gl_facts_ask(&c->facts);
-    snprintf(c->facts.found, sizeof c->facts.found, "%s", name);
-    if (c->log.say)
-        listen(&c->log);
+    settle(c, name);
     gl_context_leave(c);
     return true;
 }
@@ -142,11 +149,11 @@ static bool is_software(EGLDeviceEXT device)
 
 bool gl_hardware_there(struct error *err)
 {
-    if (!libraries_there(err))
-        return false;
+    struct error missing;
     EGLDeviceEXT devices[DEVICES_MOST];
     EGLint count = 0;
-    if (!devices_told() || !eglQueryDevicesEXT(DEVICES_MOST, devices, &count))
+    if (!libraries_there(&missing) || !devices_told() ||
+        !eglQueryDevicesEXT(DEVICES_MOST, devices, &count))
         return true; // nobody knows before a context is made
     for (EGLint i = 0; i < count; i++)
         if (!is_software(devices[i]))
@@ -210,12 +217,44 @@ struct gl_context *gl_context_new(const struct gl_log *log, struct error *err)
     return NULL;
 }
 
+struct gl_context *gl_context_adopt(bool (*open)(void *context, struct error *err), void *context,
+                                    const struct gl_log *log, struct error *err)
+{
+    struct gl_current before = gl_current_get();
+    gl_current_set(&(struct gl_current){0}); // GLX and EGL bear no other beside them
+    if (!open(context, err)) {
+        gl_current_set(&before);
+        return NULL;
+    }
+    struct gl_context *c = mem_zalloc(sizeof *c);
+    c->adopted = true;
+    c->self = gl_current_get();
+    if (log)
+        c->log = *log;
+    bool enough = epoxy_is_desktop_gl() && epoxy_gl_version() >= 45;
+    if (enough)
+        settle(c, "window");
+    else
+        error_set(err, "no OpenGL 4.5 core");
+    gl_current_set(&before);
+    if (enough)
+        return c;
+    free(c);
+    return NULL;
+}
+
 void gl_context_delete(struct gl_context *c)
 {
     if (!c)
         return;
     assert(!c->entered);
-    eglDestroyContext(c->self.display, c->self.context);
+    struct error err;
+    if (!c->adopted) {
+        eglDestroyContext(c->self.display, c->self.context);
+    } else if (c->log.say && gl_context_enter(c, &err)) {
+        glDebugMessageCallback(NULL, NULL);
+        gl_context_leave(c);
+    }
     free(c);
 }
 
@@ -231,8 +270,7 @@ bool gl_context_enter(struct gl_context *c, struct error *err)
     c->entered = gl_current_set(&c->self);
     if (c->entered)
         return true;
-    error_set(err, "the OpenGL context cannot be made current (EGL error 0x%x)",
-              (unsigned)eglGetError());
+    error_set(err, "the OpenGL context cannot be made current");
     gl_current_set(&c->before);
     return false;
 }

@@ -35,9 +35,22 @@ static bool glx_find(struct glx *x)
     return x->context && x->display && x->draw && x->read && x->make;
 }
 
+// A window's context of GLX does without.
+static bool egl_is_used(void)
+{
+    void *library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_NOLOAD);
+    if (library)
+        dlclose(library);
+    return library;
+}
+
 struct gl_current gl_current_get(void)
 {
-    struct gl_current now = {.context = eglGetCurrentContext(), .api = eglQueryAPI()};
+    struct gl_current now = {0};
+    if (egl_is_used()) {
+        now.context = eglGetCurrentContext();
+        now.api = eglQueryAPI();
+    }
     if (now.context) {
         now.display = eglGetCurrentDisplay();
         now.draw = eglGetCurrentSurface(EGL_DRAW);

@@ -10,6 +10,5 @@ struct gl_current {
     unsigned long x_draw, x_read;
 };
 
-// EGL must be there.
 struct gl_current gl_current_get(void);
 bool gl_current_set(const struct gl_current *wanted);

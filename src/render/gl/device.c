@@ -295,10 +295,29 @@ static void delete (struct device *device)
     free(d);
 }
 
-struct device *gl_device_new(bool software, struct error *err)
+static struct gl_context *find_context(const struct device_host *host, const struct gl_log *log,
+                                       struct error *err)
+{
+    struct error first, second;
+    struct gl_context *context = gl_context_new(log, &first);
+    if (!context && host && host->open_context) {
+        context = gl_context_adopt(host->open_context, host->context, log, &second);
+        if (!context)
+            error_set(err, "%s; window: %s", first.text, second.text);
+    } else if (!context) {
+        *err = first;
+    }
+    return context;
+}
+
+struct device *gl_device_new(bool software, const struct device_host *host, struct error *err)
 {
     static const struct device_kind kind = {first_surface, spans, delete};
-    struct gl_context *context = gl_context_new(NULL, err);
+    struct gl_log said = {0};
+    if (host && host->say && getenv(GL_SHADER_FOLDER))
+        said = (struct gl_log){host->say, host->context};
+    const struct gl_log *log = said.say ? &said : NULL;
+    struct gl_context *context = find_context(host, log, err);
     if (!context)
         return NULL;
     const struct gl_facts *facts = gl_context_facts(context);
@@ -310,7 +329,7 @@ struct device *gl_device_new(bool software, struct error *err)
         d->context = context;
         snprintf(d->device.description, sizeof d->device.description, "%s, OpenGL %s",
                  facts->renderer, facts->version);
-        gl_programs_init(&d->programs, NULL);
+        gl_programs_init(&d->programs, log);
         d->model.budget = SIZE_MAX;
         d->model.largest = d->memory.largest = facts->storage_size;
         d->work.memory = &d->memory;

@@ -17,7 +17,7 @@ struct gl_compiled {
 
 void gl_programs_init(struct gl_programs *p, const struct gl_log *log)
 {
-    *p = (struct gl_programs){.folder = getenv("HCSG_SHADERS")};
+    *p = (struct gl_programs){.folder = getenv(GL_SHADER_FOLDER)};
     if (log)
         p->log = *log;
 }

@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#define GL_SHADER_FOLDER "HCSG_SHADERS" // of the environment
+
 struct gl_programs {
     struct gl_compiled *items;
     uint32_t count, capacity;
@@ -11,7 +13,7 @@ struct gl_programs {
     struct gl_log log;  // told when a changed shader has an error: the former one stays in use
 };
 
-// The folder is the environment's HCSG_SHADERS, for development. `log` may be NULL.
+// The folder is that of GL_SHADER_FOLDER, for development. `log` may be NULL.
 void gl_programs_init(struct gl_programs *p, const struct gl_log *log);
 void gl_programs_free(struct gl_programs *p); // inside of the context; leaves {0}
 

@@ -72,7 +72,8 @@ const void *gl_readback_wait(struct gl_readback *r, struct error *err)
     drop_fence(r);
     double seconds = clock_seconds() - begun;
     render_waits_add(&r->waits, &(struct render_waits){1, seconds, seconds});
-    if (state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED)
+    bool signaled = state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+    if (signaled && glGetGraphicsResetStatus() == GL_NO_ERROR) // which signals all, done or not
         return r->data;
     error_set(err, "the driver was reset");
     return NULL;
