@@ -33,6 +33,8 @@ void build_task_free(struct build_task *t)
 {
     free(t->name);
     free(t->text);
+    csg_free(&t->tree);
+    source_release(t->source);
     report_free(&t->report);
     messages_free(&t->messages);
     *t = (struct build_task){0};
@@ -44,6 +46,7 @@ void loaded_free(struct loaded *s)
         next = s->next;
         shader_free(&s->shader);
         model_free(&s->model);
+        source_release(s->source);
         free(s);
     }
 }
@@ -63,7 +66,7 @@ static struct box visible_box(const struct model *m)
     return visible;
 }
 
-static void make(struct build *b, const struct csg_tree *tree)
+static void make(struct build *b, struct source *source, const struct csg_tree *tree)
 {
     struct loaded *s = mem_zalloc(sizeof *s);
     struct model_options options = MODEL_DEFAULTS;
@@ -77,6 +80,8 @@ static void make(struct build *b, const struct csg_tree *tree)
         loaded_free(s);
         return;
     }
+    s->source = source_hold(source);
+    s->version = b->now.version;
     s->visible = visible_box(&s->model);
     shader_init(&s->shader, &s->model, b->scheme);
     atomic_init(&s->references, 1);
@@ -84,23 +89,33 @@ static void make(struct build *b, const struct csg_tree *tree)
     b->now.times.built = clock_seconds();
 }
 
+static struct source *read_source(struct build_task *t)
+{
+    struct error err;
+    if (!t->text && !file_read(t->name, TEXT_LIMIT, &t->text, &t->size, &err)) {
+        messages_add(&t->messages, MESSAGE_ERROR, (struct place){0}, "%s", err.text);
+        return NULL;
+    }
+    char *text = t->text;
+    t->text = NULL;
+    return source_new(t->name, text, t->size, &t->messages);
+}
+
 static void on_work(uv_work_t *work)
 {
     struct build *b = work->data;
     struct build_task *t = &b->now;
-    struct error err;
-    struct csg_tree tree;
     t->times.started = clock_seconds();
-    if (!t->text && !file_read(t->name, TEXT_LIMIT, &t->text, &t->size, &err)) {
-        messages_add(&t->messages, MESSAGE_ERROR, (struct place){0}, "%s", err.text);
+    if (t->source) {
+        t->times.parsed = t->times.started;
+        make(b, t->source, &t->tree);
         return;
     }
-    if (atomic_load(&b->cancelled) || !csg_parse(&tree, t->name, t->text, t->size, &t->messages))
-        return;
+    struct source *source = read_source(t);
     t->times.parsed = clock_seconds();
-    if (!atomic_load(&b->cancelled))
-        make(b, &tree);
-    csg_free(&tree);
+    if (source && !atomic_load(&b->cancelled))
+        make(b, source, &source->tree);
+    source_release(source);
 }
 
 static void end(struct build *b)

@@ -35,16 +35,19 @@ struct loader {
     uint32_t file_count, file_capacity;
     struct build *build;
     uint32_t loads;
-    double noticed;    // of the load under way
-    double failed;     // `noticed` of the newest that failed
-    double exporting;  // since when openscad runs, or ran last
-    double building;   // since when a model is made; 0: none is
-    uint64_t retry_ms; // before the next try
-    bool patient;      // failures may pass
+    double noticed;        // of the load under way
+    double failed;         // `noticed` of the newest that failed
+    double exporting;      // since when openscad runs, or ran last
+    double building;       // since when a model is made; 0: none is
+    uint64_t retry_ms;     // before the next try
+    bool patient;          // failures may pass
+    bool loading;          // what was saved is being made into a model
+    struct source *source; // of the newest model; held
 
     uv_mutex_t mutex; // guards what follows
     struct loaded *retired;
     struct loader_news news;
+    struct build_task edit; // asked for; without a source: none
     bool fresh, stopping, reload, cancel;
 };
 
@@ -100,6 +103,7 @@ static void fail(struct loader *l, struct report *report)
 static void ask_build(struct loader *l, struct build_task *task)
 {
     l->building = clock_seconds();
+    l->loading |= !task->source;
     build_ask(l->build, task);
     publish(l, NULL, NULL, false);
 }
@@ -161,26 +165,34 @@ static void on_built(void *context, struct build_task *task)
 {
     struct loader *l = context;
     struct loaded *s = task->loaded;
-    bool doubtful = !l->is_scad && (!s || task->size == 0);
+    bool edited = task->source != NULL;
+    bool doubtful = !edited && !l->is_scad && (!s || task->size == 0);
     l->building = 0;
     if (doubtful && try_again(l)) {
         build_retire(l->build, s);
         publish(l, NULL, NULL, false);
         return;
     }
-    messages_print(&task->messages, stderr);
-    report_messages(&task->report, &task->messages);
+    if (!edited) {
+        l->loading = false;
+        messages_print(&task->messages, stderr);
+        report_messages(&task->report, &task->messages);
+    }
     if (!s) {
         fail(l, &task->report);
         return;
     }
-    follow_imports(l, &s->model, task->times.started);
+    if (!edited) {
+        follow_imports(l, &s->model, task->times.started);
+        source_release(l->source);
+        l->source = source_hold(s->source);
+    }
     s->times = task->times;
     s->number = ++l->loads;
     s->loader = l;
     build_replace(l->build, s);
     // What is wrong with a newer file is more to the point.
-    publish(l, s, l->failed > s->times.noticed ? NULL : &task->report, false);
+    publish(l, s, edited || l->failed > s->times.noticed ? NULL : &task->report, false);
 }
 
 static void on_exported(void *context, struct scad_result *result, const struct error *err)
@@ -255,6 +267,7 @@ static void give_up(struct loader *l)
     l->job = NULL;
     build_cancel(l->build);
     l->building = 0;
+    l->loading = false;
     publish(l, NULL, NULL, false);
 }
 
@@ -280,12 +293,15 @@ static void on_wake(uv_async_t *handle)
     struct loader *l = handle->data;
     uv_mutex_lock(&l->mutex);
     struct loaded *retired = l->retired;
+    struct build_task edit = l->edit;
     bool reload = l->reload, cancel = l->cancel, stopping = l->stopping;
     l->retired = NULL;
+    l->edit = (struct build_task){0};
     l->reload = l->cancel = false;
     uv_mutex_unlock(&l->mutex);
     build_retire(l->build, retired);
     if (stopping) {
+        build_task_free(&edit);
         if (l->job)
             scad_cancel(l->job);
         watch_delete(l->watch);
@@ -302,6 +318,9 @@ static void on_wake(uv_async_t *handle)
         l->patient = false;
         load(l, clock_seconds());
     }
+    if (edit.source && edit.source == l->source && !l->loading)
+        ask_build(l, &edit);
+    build_task_free(&edit);
 }
 
 static void run(void *context)
@@ -316,6 +335,7 @@ static void run(void *context)
     uv_run(&l->loop, UV_RUN_DEFAULT);
     forget_files(l);
     free(l->files);
+    source_release(l->source);
 }
 
 static void listen_to_signals(struct loader *l)
@@ -393,6 +413,21 @@ void loader_cancel(struct loader *l)
     set_flag(l, &l->cancel);
 }
 
+void loader_edit(struct loader *l, const struct edit *e)
+{
+    struct build_task task = {.source = source_hold(edit_source(e)),
+                              .version = edit_version(e),
+                              .times.noticed = clock_seconds()};
+    task.name = mem_strdup(l->options.path);
+    edit_tree(e, &task.tree);
+    uv_mutex_lock(&l->mutex);
+    struct build_task replaced = l->edit;
+    l->edit = task;
+    uv_mutex_unlock(&l->mutex);
+    uv_async_send(&l->wake);
+    build_task_free(&replaced);
+}
+
 void loader_stop(struct loader *l)
 {
     if (!l)
@@ -402,6 +437,7 @@ void loader_stop(struct loader *l)
     uv_loop_close(&l->loop);
     loaded_free(l->retired);
     loaded_free(l->news.loaded);
+    build_task_free(&l->edit);
     uv_mutex_destroy(&l->mutex);
     report_free(&l->news.report);
     free(l);

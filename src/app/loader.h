@@ -1,6 +1,7 @@
 // loader.h - follows the file and hands over the models made of it, on a thread of its own.
 #pragma once
 #include "app/report.h"
+#include "edit/edit.h"
 #include "model/model.h"
 #include "render/shade.h"
 
@@ -19,7 +20,9 @@ struct loaded {
     struct shader shader;
     struct box visible; // holds all that can show, closer than the model's bounds
     struct load_times times;
-    uint32_t number; // of the load, from 1
+    uint32_t number;       // of the load, from 1
+    struct source *source; // the file as it was read; held
+    uint64_t version;      // edit_version of the edit that it shows, 0 for the file as it is
     atomic_uint references;
     struct loader *loader;
     struct loaded *next; // among those that nobody holds any more
@@ -56,6 +59,10 @@ struct loader *loader_start(const struct loader_options *options, struct error *
 // False when nothing is new since the last call.
 bool loader_take(struct loader *l, struct loader_news *out);
 void loader_reload(struct loader *l); // as if the file had been saved
+// Shows an edit of the newest model's source, as soon as its model is made. Of edits that come
+// faster than models some are left out, never the last. One of an older source is not shown any
+// more: a newer file is on its way, or there.
+void loader_edit(struct loader *l, const struct edit *e);
 void loader_cancel(struct loader *l); // gives up what goes on, until the file is saved again
 // All models have to be released before.
 void loader_stop(struct loader *l);
