@@ -1,4 +1,4 @@
-// parameters.h - files of parameter sets, as OpenSCAD's customizer writes them.
+// parameters.h - whether there is a parameter set of a name.
 #pragma once
 #include "base/error.h"
 

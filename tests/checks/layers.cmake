@@ -6,15 +6,16 @@ set(may_csg base)
 set(may_geom base)
 set(may_hcsg base)
 set(may_scad base)
+set(may_customizer base)
 set(may_io base geom)
 set(may_type base geom)
 set(may_model base csg geom io type hcsg)
 set(may_edit base csg geom hcsg model)
 set(may_render base geom hcsg model)
 set(may_slice base geom io model render)
-set(may_command base csg geom hcsg scad io type model render slice)
-set(may_app base csg geom hcsg scad io type model edit render slice command)
-set(folders base csg geom hcsg scad io type model edit render slice command app)
+set(may_command base csg geom hcsg scad customizer io type model render slice)
+set(may_app base csg geom hcsg scad customizer io type model edit render slice command)
+set(folders base csg geom hcsg scad customizer io type model edit render slice command app)
 
 # Libraries with few homes: a pattern of the header, then the paths that may include it.
 set(libraries glfw epoxy glu egl imgui uv clipper cgal qhull zip expat harfbuzz cjson)
@@ -44,7 +45,7 @@ set(harfbuzz_header "^(hb|hb-ft)\\.h")
 set(harfbuzz_home "^type/")
 
 set(cjson_header "^cjson/")
-set(cjson_home "^(command/|render/scheme_file)")
+set(cjson_home "^(command/|customizer/|render/scheme_file)")
 
 # The engine below these leaves the process alone: it returns errors, and starts nothing.
 set(engine "^(base|csg|geom|hcsg|io|type|model|edit|render|slice)/")
