@@ -194,20 +194,55 @@ static bool draw_with_gl(struct run *s, struct gl_result *out, struct error *err
     draw_spans(s, 0, &stats, &intervals); // may compile
     measure_kind(s, true, &out->spans);
     measure_batch(s, out->batch);
-    if (s->result->leaves * samples_median(&out->spans.frames) < GL_ARRAY_EFFORT) {
-        s->stage.settings.walk = WALK_ARRAY;
-        draw(s, 0, &stats); // compiles
-        measure_kind(s, false, &out->array_opaque);
-        draw_spans(s, 0, &stats, &intervals); // compiles
-        measure_kind(s, true, &out->array_spans);
-        s->stage.settings.walk = WALK_AUTO;
-    }
     out->peak_bytes = s->stage.peak_bytes;
     out->model_bytes = s->stage.model_bytes;
-    return !device_failed(s->device, err);
+    return true;
 }
 
-// On a device of its own: what fails with one scene works with the next.
+static void draw_array_with_gl(struct run *s, struct gl_result *out)
+{
+    struct render_stats stats;
+    uint64_t intervals;
+    s->stage.settings.walk = WALK_ARRAY;
+    draw(s, 0, &stats); // compiles
+    measure_kind(s, false, &out->array_opaque);
+    draw_spans(s, 0, &stats, &intervals); // compiles
+    measure_kind(s, true, &out->array_spans);
+    s->stage.settings.walk = WALK_AUTO;
+}
+
+// What the processor has drawn instead is no figure.
+static bool has_failed(struct run *s, const char *what, struct error *why)
+{
+    bool failed = device_failed(s->device, why);
+    if (failed)
+        fprintf(stderr, "%s, %s: %s\n", s->result->scene->name, what, why->text);
+    return failed;
+}
+
+static void kind_free(struct gl_kind *k)
+{
+    samples_free(&k->frames);
+    *k = (struct gl_kind){0};
+}
+
+// On devices of their own: what fails on one scene or way works on the next.
+static bool measure_array_with_gl(struct run *s, struct error *err)
+{
+    struct gl_result *out = &s->result->gl;
+    struct error why;
+    s->device = device_choose(s->options->gl, NULL, err);
+    if (!s->device)
+        return false;
+    draw_array_with_gl(s, out);
+    if (has_failed(s, "array", &why)) {
+        kind_free(&out->array_opaque);
+        kind_free(&out->array_spans);
+    }
+    device_delete(s->device);
+    return true;
+}
+
 static bool measure_gl(struct run *s, struct error *err)
 {
     struct gl_result *out = &s->result->gl;
@@ -220,7 +255,17 @@ static bool measure_gl(struct run *s, struct error *err)
     snprintf(out->device, sizeof out->device, "%.*s", (int)sizeof out->device - 1,
              out->measured ? s->device->description : err->text);
     bool ok = !out->measured || draw_with_gl(s, out, err);
+    struct error why;
+    if (ok && has_failed(s, "gl", &why)) {
+        kind_free(&out->opaque);
+        kind_free(&out->spans);
+        *out = (struct gl_result){0};
+        snprintf(out->device, sizeof out->device, "%.*s", (int)sizeof out->device - 1, why.text);
+    }
     device_delete(s->device);
+    if (ok && out->measured &&
+        s->result->leaves * samples_median(&out->spans.frames) < GL_ARRAY_EFFORT)
+        ok = measure_array_with_gl(s, err);
     return ok;
 }
 

@@ -12,5 +12,7 @@ void report_gl_rows(FILE *tsv, const struct result *r);
 
 // Tables in Markdown.
 void report_tables(FILE *out, const struct result *results, uint32_t count);
+// The figures of the HCSG paper for the scenes that it has, and ours.
+void report_paper_table(FILE *out, const struct result *results, uint32_t count);
 void report_gl_tables(FILE *out, const struct result *results, uint32_t count);
 void report_process_table(FILE *out, const struct process_result *results, uint32_t count);

@@ -154,6 +154,7 @@ void report_gl_tables(FILE *out, const struct result *results, uint32_t count)
     batch_table(out, results, count);
     kind_table(out, results, count, true);
     kind_table(out, results, count, false);
+    report_paper_table(out, results, count);
     fprintf(out, "\ngl: %s%s.\n",
             results[0].gl.measured ? "" : "not measured: ", results[0].gl.device);
 }

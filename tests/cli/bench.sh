@@ -19,6 +19,13 @@ grep -q '^| less | 12096 | 21 | 2 |.* not measured ' tables || fault "less: $(ca
 grep -q '^| more | 12096 | 21 | 1 |.* not measured ' tables || fault "more: $(cat tables)"
 grep -q '^gl: not measured: .*libEGL' tables || fault "why: $(cat tables)"
 [ "$(grep -c '^less	batch_1*[02][0-9]*_combinations' out.tsv)" = 2 ] || fault "$(cat out.tsv)"
+! grep -q 'paper' tables || fault "none of the paper's: $(cat tables)"
+mkdir paper
+cp scenes/less.csg paper/gears.csg
+echo 'gears instanced 0 0' >paper/list
+LD_LIBRARY_PATH=none measure --list=paper/list --scenes=paper >tables || fault 'gears'
+grep -qx '| gears | 30.5 | 18.4 | 1.84 | not measured | | 21.8 | 16.1 | 1.61 | not measured | |' tables ||
+    fault "gears: $(cat tables)"
 measure --device=cpu less >tables 2>stderr || fault "$(cat stderr)"
 ! grep -q 'gl:' tables || fault "cpu: $(cat tables)"
 ! measure --device=gpu less >tables 2>stderr || fault 'no such device'
