@@ -23,10 +23,16 @@ bool in_subset(int subset, uint i, uint c)
     return subset == SUBSET_PREFIX ? i <= c : (i == c) == (subset == SUBSET_ALONE);
 }
 
+// Never 0.
+uint mark_of(uvec2 key)
+{
+    return (key.x * 0x9e3779b1u ^ (key.y & SECONDARY) * 0x85ebca77u) | 1u;
+}
+
 // Is this the first thread to record the combination?
 bool claim(uvec2 key)
 {
-    uint mark = (key.x * 0x9e3779b1u ^ key.y * 0x85ebca77u) | 1u;
+    uint mark = mark_of(key);
     uint found = atomicCompSwap(claims[(key.x ^ key.x >> 16) & frame.claim_mask], 0, mark);
     return found != mark;
 }
@@ -75,8 +81,12 @@ bool is_solid(uvec2 key, int subset, uint c)
 {
     uint state = table_lookup(key);
     if (state == SET_UNKNOWN) {
+#ifdef OVER_FRAMES
+        missing = missing != 0 ? missing : mark_of(key);
+#else
         unknown = true;
         record(key, subset, c);
+#endif
     }
     return state == SET_SOLID;
 }

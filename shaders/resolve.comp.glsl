@@ -4,7 +4,9 @@
 // src/render/cpu/walk.c: the same picture, crossing by crossing. Built with SPANS all solid
 // intervals are written, else the first surface. A ray that meets an unknown combination puts it on
 // record, goes on to record what follows, and is walked again when the table knows more. Built with
-// ARRAY no combination is unknown (array.glsl).
+// ARRAY no combination is unknown (array.glsl). Built with OVER_FRAMES what is unknown counts as empty,
+// and the first such combination of each ray is marked; its state waits until some rays have put theirs on
+// record, and is carried into the next slab by a walk built with CARRY besides.
 #include "frame.glsl"
 #include "exact.glsl"
 #include "table.glsl"
@@ -82,6 +84,7 @@ struct boundary {
 uint pixel;       // of the band
 uint first, size; // its fragments
 bool unknown;     // it met an unknown combination
+uint missing = 0; // OVER_FRAMES: stands for the first of them
 uvec2 before;     // the key in front of the cluster [from, to)
 uint from, to;
 float resume; // what is nearer is done with
@@ -156,6 +159,16 @@ bool change(bool now)
 #endif
 }
 
+// Is the state to stay as it is?
+bool waits()
+{
+#if defined(OVER_FRAMES) && !defined(CARRY)
+    return missing != 0;
+#else
+    return unknown;
+#endif
+}
+
 // Puts what is left of the ray into its state.
 void carry(uint end)
 {
@@ -219,7 +232,7 @@ bool walk(uvec2 key)
         key = key_add(key, step_of(f));
     }
     if (frame.slab_last == 0) {
-        if (!unknown)
+        if (!waits())
             carry(i);
         return false;
     }
@@ -239,20 +252,30 @@ void main()
     if (i >= (frame.pending != 0 ? frame.pending : pixels))
         return;
     pixel = frame.pending != 0 ? pending[i] : i;
+    if (pixel == NO_PIXEL)
+        return;
     first = offsets[pixel];
     size = offsets[pixel + 1] - first;
     pixel_state s = pixel_state(uint[2](0, 0), 0, 0, 0, SURFACE_NO_LEAF, SURFACE_CAP_FACE);
     if (frame.slab_first == 0)
         s = states[pixel];
+#ifdef CARRY
+    if ((states[pixel].flags & PIXEL_MISSED) == 0)
+        return;
+#elif defined(OVER_FRAMES)
+    missed[pixel] = 0;
+#endif
     if ((s.flags & PIXEL_DONE) != 0)
         return;
     resume = frame.slab_first != 0 ? -BEYOND : s.resume;
+#ifndef CARRY
     if (frame.pending == 0) {
         sort();
         if (frame.windings != 0 && settle_windings())
             sort();
         drop_nothings();
     }
+#endif
     while (size > 0 && at(size - 1).key == BEYOND)
         size--;
 
@@ -264,11 +287,21 @@ void main()
     written = 0;
     walk(key);
 #else
-    if (walk(key))
+    bool found = walk(key);
+    if (found && !waits())
         states[pixel].flags = PIXEL_DONE;
-    else if (!unknown && frame.slab_last != 0)
+    else if (!found && !unknown && frame.slab_last != 0)
         put_surface(boundary(0, SURFACE_NO_LEAF, SURFACE_CAP_FACE));
 #endif
+#if defined(OVER_FRAMES) && !defined(CARRY)
+    if (missing == 0)
+        return;
+    missed[pixel] = missing;
+    s.flags |= PIXEL_MISSED;
+    states[pixel] = s;
+    atomicAdd(count.missed, 1);
+#else
     if (unknown)
         missed[atomicAdd(count.missed, 1)] = pixel;
+#endif
 }

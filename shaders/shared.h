@@ -42,12 +42,15 @@
 #define SMALL_PIXELS 32     // triangles whose rectangle has no more pixels take one thread
 #define PIECE        32     // larger ones are cut into squares of so many pixels
 #define BINS         256    // of a histogram of keys
+#define REDUCE_SIDE  8      // of a square of rays of which one records what it misses
+#define NO_PIXEL     0xffffffffu
 
 // Grid of picture coordinates: 2^GRID_BITS units a pixel, at most 2^COORDINATE_BITS units in all.
 #define GRID_BITS       18
 #define COORDINATE_BITS 29
 #define STEEP_LEAST     1e-3 // faces less steep than this count as that steep
 #define AHEAD           64   // clusters behind an unknown combination that are recorded as well
+#define AHEAD_FRAMES    16   // the same where discovery goes on over frames, as in the paper
 
 // Leaf flags.
 #define LEAF_MIRRORED   1u
@@ -132,6 +135,7 @@ struct pixel_state {
 };
 #define PIXEL_SOLID 1u
 #define PIXEL_DONE  2u
+#define PIXEL_MISSED 4u // OVER_FRAMES: what is in front of the slab still stands here
 
 struct span_data {
     float enter, leave;

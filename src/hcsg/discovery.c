@@ -22,7 +22,7 @@ struct combinations {
     struct table *retired[TABLE_BITS_MOST]; // a reader may still be in one
     uint32_t retired_count;
     uint32_t rebuilds;
-    uint64_t identity, version;
+    uint64_t identity, version, renewals;
     struct arena sets;
 };
 
@@ -276,9 +276,15 @@ void discovery_renew(struct discovery *d)
     struct table *t = current(c);
     discovery_settle(d);
     t->version = ++c->version;
+    c->renewals++;
     for (uint32_t i = 0; i < table_capacity(t); i++)
         if (t->sets[i])
             table_renew(t, i, key_of_set(c->sharing, t->sets[i]));
+}
+
+uint64_t discovery_renewals(struct discovery *d)
+{
+    return whole(d)->renewals;
 }
 
 uint64_t discovery_identity(struct discovery *d)

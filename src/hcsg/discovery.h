@@ -49,6 +49,7 @@ bool discovery_extend(struct discovery *d, uint64_t from, const struct class_ste
 // Brings the stored keys in line with the values of the classes after values_renew. Keys summed
 // before are meaningless afterwards. Not while another thread uses `d`.
 void discovery_renew(struct discovery *d);
+uint64_t discovery_renewals(struct discovery *d); // how often that was
 
 // Makes known what `from` knows of sets all of whose classes are here: image[class of `from`] is
 // its number here, EXPR_NONE for one that is not, and has the same value (sharing_inherit). The

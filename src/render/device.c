@@ -29,6 +29,7 @@ void render_stats_add(struct render_stats *sum, const struct render_stats *one)
     sum->seconds_draw += one->seconds_draw;
     sum->fragments += one->fragments;
     sum->misses += one->misses;
+    sum->missing += one->missing;
     sum->open_rays += one->open_rays;
     if (one->peak_bytes > sum->peak_bytes)
         sum->peak_bytes = one->peak_bytes;

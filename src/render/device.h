@@ -44,12 +44,18 @@ enum walk {
     WALK_ARRAY, // the same, with the whole expression for each interval; for the bench
 };
 
+enum discovery_scheme {
+    DISCOVER_AT_ONCE,     // no picture is wrong
+    DISCOVER_OVER_FRAMES, // gl: what is unknown shows as empty until a later frame; for the bench
+};
+
 struct render_settings {
     double epsilon;   // intervals thinner than this across their faces do not exist, mm
     uint32_t threads; // 0: one per processor
     size_t memory;    // budget in bytes for a frame beyond model and outputs; 0: 256 MB
     uint32_t slabs;   // gl: at least so many slabs of depth; 0: as many as the budget demands
     enum walk walk;
+    enum discovery_scheme discovery;
     bool sparse; // where no leaf can be, outputs are neither written nor told
     // Per leaf of the body, or NULL: the crossings with it that are listed are added. By the cpu
     // device alone, see cost.h.
@@ -63,7 +69,7 @@ struct render_pass {
     double seconds;   // of the graphics processor, but for "discover"
     uint64_t count;   // how often it was taken
 };
-enum { RENDER_PASSES = 12 };
+enum { RENDER_PASSES = 14 };
 
 // What the processor waited for the graphics processor.
 struct render_waits {
@@ -76,6 +82,7 @@ struct render_stats {
     double seconds_setup, seconds_draw;
     uint64_t fragments;   // crossings made
     uint64_t misses;      // combinations evaluated during the frame
+    uint64_t missing;     // rays that show an unknown one as empty: DISCOVER_OVER_FRAMES
     uint64_t open_rays;   // rays on which a mesh did not close
     size_t peak_bytes;    // beyond model and outputs
     size_t model_bytes;   // gl: of bodies, where shaders see them

@@ -25,6 +25,13 @@ static const struct {
     {"fragments", "HISTOGRAM PIECES"},
     {"resolve", "SURFACE"},
     {"resolve", "SPANS"},
+    {"resolve", "SURFACE OVER_FRAMES"},
+    {"resolve", "SPANS OVER_FRAMES"},
+    {"resolve", "SURFACE OVER_FRAMES CARRY"},
+    {"resolve", "SPANS OVER_FRAMES CARRY"},
+    {"resolve", "SURFACE OVER_FRAMES CARRY"},
+    {"resolve", "SPANS OVER_FRAMES CARRY"},
+    {"reduce", ""},
     {"resolve", "SURFACE ARRAY LEAVES=9 NODES=17"},
     {"resolve", "SPANS ARRAY LEAVES=9 NODES=17"},
 };

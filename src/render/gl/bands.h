@@ -17,6 +17,7 @@ struct gl_drawing {
     struct gl_scene *scene;
     struct gl_table *table;
     struct gl_array *array;
+    struct gl_learner *learner;
     const struct body *body;
     const struct rays *rays;
     const struct render_settings *settings;

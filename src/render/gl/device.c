@@ -23,6 +23,7 @@ struct resident {
     struct gl_scene scene;
     struct gl_table table;
     struct gl_array array; // once the bench has asked for it
+    struct gl_learner learner;
 };
 
 struct gl_device {
@@ -41,6 +42,7 @@ static void evict(struct resident *r)
     gl_scene_free(&r->scene);
     gl_table_free(&r->table);
     gl_buffer_free(&r->array.nodes);
+    gl_learner_free(&r->learner);
     *r = (struct resident){0};
 }
 
@@ -57,6 +59,7 @@ static bool settle(struct gl_device *d, struct gl_drawing *g)
             g->scene = &r->scene;
             g->table = &r->table;
             g->array = &r->array;
+            g->learner = &r->learner;
             return true;
         }
         oldest = r->used < oldest->used ? r : oldest;
@@ -74,13 +77,20 @@ static bool settle(struct gl_device *d, struct gl_drawing *g)
     g->scene = &oldest->scene;
     g->table = &oldest->table;
     g->array = &oldest->array;
+    g->learner = &oldest->learner;
     return true;
 }
 
 static bool choose_walk(struct gl_device *d, struct gl_drawing *g)
 {
     bool by_array = g->settings->walk == WALK_ARRAY;
+    bool over_frames = g->settings->discovery == DISCOVER_OVER_FRAMES && !by_array;
     d->work.array = by_array ? g->array : NULL;
+    d->work.learner = over_frames ? g->learner : NULL;
+    if (over_frames)
+        gl_learner_start(g->learner, g->body);
+    else
+        g->learner->words = 0;
     return !by_array || g->array->nodes.id || gl_array_upload(g->array, &d->model, g->body, g->err);
 }
 
@@ -139,6 +149,8 @@ static int run(struct device *device, struct gl_drawing *g)
         rows = gl_bands_draw(g);
         g->stats->seconds_draw = clock_seconds() - begun;
     }
+    if (g->learner)
+        gl_learner_finish(g->learner, g->stats);
     tell_passes(g);
     g->stats->peak_bytes = d->memory.peak;
     g->stats->model_bytes = d->model.peak;

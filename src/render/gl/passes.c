@@ -334,18 +334,19 @@ static void bind_walk(const struct gl_work *w, const struct gl_scene *scene,
         gl_buffer_bind(&w->span_counts, BIND_SPANS);
 }
 
-// One round of walks; *c: what came of it.
+// One round of walks; *c: what came of it. `how`: what the shader is built with besides.
 static bool walk(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
-                 const struct gl_table *table, bool spans, struct counters *c, struct error *err)
+                 const struct gl_table *table, bool spans, const char *how, struct counters *c,
+                 struct error *err)
 {
     static const uint32_t none[2];
-    char defines[sizeof w->array->defines + 16];
+    char defines[sizeof w->array->defines + 32];
     gl_buffer_write(&w->frame, 0, f, sizeof *f);
     gl_buffer_write(&w->counters, offsetof(struct counters, missed), none, sizeof none);
     gl_buffer_fill(&w->claims, 0, (size_t)w->plan.claims * 4, 0);
     bind_walk(w, scene, table, spans);
     snprintf(defines, sizeof defines, "%s %s", spans ? "SPANS" : "SURFACE",
-             w->array ? w->array->defines : "");
+             w->array ? w->array->defines : how);
     gl_timer_begin(&w->timers, f->pending ? "rewalk" : "resolve");
     bool fine = take(w, "resolve", defines,
                      ((f->pending ? f->pending : pixels_of(f)) + GROUP_SIZE - 1) / GROUP_SIZE, err);
@@ -367,7 +368,53 @@ static bool learn(struct gl_work *w, const struct body *body, const struct count
     return fine;
 }
 
-bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
+// Brings values and combinations to where shaders see them.
+static bool upload(struct gl_work *w, struct gl_scene *scene, struct frame_data *f,
+                   struct gl_table *table, const struct body *body, struct render_stats *stats,
+                   struct error *err)
+{
+    uint64_t uploaded = table->uploaded;
+    gl_timer_begin(&w->timers, "upload");
+    bool there = gl_table_upload(table, w->model, body->table, err);
+    if (there && scene->renewals != discovery_renewals(body->table))
+        gl_scene_renew(scene, body);
+    gl_timer_end(&w->timers);
+    stats->table_bytes += table->uploaded - uploaded;
+    f->table_shift = table->shift;
+    return there;
+}
+
+// A walk in which what is unknown is empty; then one ray of each square records what it misses.
+static bool resolve_over_frames(struct gl_work *w, struct gl_scene *scene, struct frame_data *f,
+                                struct gl_table *table, const struct body *body, bool spans,
+                                struct counters *c, struct render_stats *stats, struct error *err)
+{
+    struct counters recorded;
+    gl_learner_finish(w->learner, stats);
+    if (!upload(w, scene, f, table, body, stats, err) ||
+        !walk(w, scene, f, table, spans, "OVER_FRAMES", c, err))
+        return false;
+    stats->missing += c->missed;
+    if (!c->missed)
+        return true;
+
+    uint32_t squares = (uint32_t)((f->columns + REDUCE_SIDE - 1) / REDUCE_SIDE *
+                                  ((f->rows + REDUCE_SIDE - 1) / REDUCE_SIDE));
+    gl_timer_begin(&w->timers, "reduce");
+    bool fine = take(w, "reduce", "", squares, err);
+    gl_timer_end(&w->timers);
+    f->pending = squares;
+    f->ahead = AHEAD_FRAMES + 1;
+    if (!fine || !walk(w, scene, f, table, spans, "", &recorded, err))
+        return false;
+    size_t words = recorded.misses < w->plan.miss_words ? recorded.misses : w->plan.miss_words;
+    if (!read_one(w, &w->misses, gl_learner_room(w->learner, words), words * 4, err))
+        return false;
+    f->pending = 0;
+    return f->slab_last || walk(w, scene, f, table, spans, "OVER_FRAMES CARRY", c, err);
+}
+
+bool gl_work_resolve(struct gl_work *w, struct gl_scene *scene, struct frame_data *f,
                      struct gl_table *table, const struct body *body, bool spans, uint32_t *stuck,
                      uint32_t *alive, struct render_stats *stats, struct error *err)
 {
@@ -378,16 +425,11 @@ bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct fra
     f->miss_most = w->plan.miss_words;
     f->claim_mask = w->plan.claims - 1;
     *stuck = 0;
-    for (;;) {
-        uint64_t uploaded = table->uploaded;
-        gl_timer_begin(&w->timers, "upload");
-        bool there = gl_table_upload(table, w->model, body->table, err);
-        gl_timer_end(&w->timers);
-        if (!there)
-            return false;
-        stats->table_bytes += table->uploaded - uploaded;
-        f->table_shift = table->shift;
-        if (!walk(w, scene, f, table, spans, &c, err))
+    if (w->learner && !resolve_over_frames(w, scene, f, table, body, spans, &c, stats, err))
+        return false;
+    while (!w->learner) {
+        if (!upload(w, scene, f, table, body, stats, err) ||
+            !walk(w, scene, f, table, spans, "", &c, err))
             return false;
         if (!c.missed)
             break;

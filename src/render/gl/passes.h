@@ -3,6 +3,7 @@
 #include "render/gl/array.h"
 #include "render/gl/discover.h"
 #include "render/gl/frame.h"
+#include "render/gl/learner.h"
 #include "render/gl/plan.h"
 #include "render/gl/program.h"
 #include "render/gl/readback.h"
@@ -26,6 +27,7 @@ struct gl_work {
     struct gl_readback readback;
     struct gl_timers timers;      // of the passes of a picture
     const struct gl_array *array; // walks go by it; NULL: by the table
+    struct gl_learner *learner;   // unknown combinations go there; NULL: rays wait for them
 };
 
 void gl_work_free(struct gl_work *w);
@@ -59,6 +61,6 @@ bool gl_work_scatter(struct gl_work *w, const struct gl_scene *scene, const stru
                      uint32_t fragments, bool spans, struct error *err);
 // Walks the rays until no combination is unknown. *stuck: rays of w->pending[0] that cannot go on,
 // since the table has no room for what they need. *alive: rays that go on into the next slab.
-bool gl_work_resolve(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
+bool gl_work_resolve(struct gl_work *w, struct gl_scene *scene, struct frame_data *f,
                      struct gl_table *table, const struct body *body, bool spans, uint32_t *stuck,
                      uint32_t *alive, struct render_stats *stats, struct error *err);

@@ -170,7 +170,7 @@ static bool upload_leaves(struct gl_scene *s, struct gl_memory *memory, const st
 {
     size_t n = body->leaf_count;
     struct leaf_data *leaves = mem_zalloc((n + 1) * sizeof *leaves);
-    uint32_t(*values)[4] = mem_zalloc((n + 1) * sizeof *values);
+    s->flags = mem_alloc((n + 1) * sizeof *s->flags);
     for (uint32_t i = 0; i < n; i++) {
         const struct leaf *l = &body->leaves[i];
         const struct entry *e = &c->entries[c->entry_of_leaf[i]];
@@ -192,18 +192,33 @@ static bool upload_leaves(struct gl_scene *s, struct gl_memory *memory, const st
             put_vec(out->roi_high, body->roi[i].max);
             out->flags |= region_flags(l, &body->roi[i]);
         }
+        s->flags[i] = out->flags;
+    }
+    size_t values = (n ? n : 1) * sizeof(uint32_t[4]); // an empty one cannot be bound
+    bool fine = upload(&s->leaves, memory, "leaves", leaves, n * sizeof *leaves, err) &&
+                gl_buffer_fit(&s->values, memory, "values", values, err);
+    free(leaves);
+    s->leaf_count = body->leaf_count;
+    if (fine)
+        gl_scene_renew(s, body);
+    return fine;
+}
+
+void gl_scene_renew(struct gl_scene *s, const struct body *body)
+{
+    size_t n = s->leaf_count;
+    uint32_t(*values)[4] = mem_alloc((n + 1) * sizeof *values);
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t class_id = body->sharing.class_of_leaf[i];
         uint64_t value = class_id == EXPR_NONE ? 0 : body->sharing.classes[class_id].value;
         values[i][0] = (uint32_t)value;
         values[i][1] = (uint32_t)(value >> 32);
         values[i][2] = class_id;
-        values[i][3] = out->flags;
+        values[i][3] = s->flags[i];
     }
-    bool fine = upload(&s->leaves, memory, "leaves", leaves, n * sizeof *leaves, err) &&
-                upload(&s->values, memory, "values", values, n * sizeof *values, err);
-    free(leaves);
+    gl_buffer_write(&s->values, 0, values, n * sizeof *values);
     free(values);
-    s->leaf_count = body->leaf_count;
-    return fine;
+    s->renewals = discovery_renewals(body->table);
 }
 
 bool gl_scene_upload(struct gl_scene *s, struct gl_memory *memory, const struct body *body,
@@ -226,5 +241,6 @@ void gl_scene_free(struct gl_scene *s)
     gl_buffer_free(&s->faces);
     gl_buffer_free(&s->leaves);
     gl_buffer_free(&s->values);
+    free(s->flags);
     *s = (struct gl_scene){0};
 }

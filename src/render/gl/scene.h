@@ -7,10 +7,14 @@ struct gl_scene {                                        // {0} is valid: nothin
     struct gl_buffer vertices, triangles, planes, faces; // of all solids
     struct gl_buffer leaves, values;                     // per leaf
     uint32_t leaf_count;
-    bool windings; // there are leaves with LEAF_WINDING
+    uint32_t *flags;   // per leaf
+    uint64_t renewals; // of the values that are there: discovery_renewals
+    bool windings;     // there are leaves with LEAF_WINDING
 };
 
 // Inside of the context. False when there is no room.
 bool gl_scene_upload(struct gl_scene *s, struct gl_memory *memory, const struct body *body,
                      struct error *err);
+// Brings the values of the leaves in line with those of their classes.
+void gl_scene_renew(struct gl_scene *s, const struct body *body);
 void gl_scene_free(struct gl_scene *s); // leaves {0}
