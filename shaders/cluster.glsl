@@ -16,14 +16,15 @@ bool thick(fragment a, fragment b)
     return gap * steep >= frame.epsilon;
 }
 
-// Does the leaf of crossing c also cross the other way in the cluster? It is too thin to show.
+// Does the leaf of crossing c cross the other way as often? It is too thin to show there.
 bool is_paired(uint c)
 {
-    uint other = at(c).leaf ^ FRAGMENT_LEAVES;
-    for (uint i = from; i < to; i++)
-        if (at(i).leaf == other)
-            return true;
-    return false;
+    uint leaf = at(c).leaf, same = 0, other = 0;
+    for (uint i = from; i < to; i++) {
+        same += uint(at(i).leaf == leaf);
+        other += uint((at(i).leaf ^ leaf) == FRAGMENT_LEAVES);
+    }
+    return other >= same;
 }
 
 vec3 normal_of(fragment f)
@@ -43,18 +44,8 @@ vec3 normal_of(fragment f)
 
 bool coplanar(fragment a, fragment b)
 {
-    return length(cross(normal_of(a), normal_of(b))) < 1e-4;
-}
-
-void mark_turn(uint i, bool turns)
-{
-    uint t = fragments[first + i].triangle;
-    fragments[first + i].triangle = turns ? t | FRAGMENT_TURN : t & ~FRAGMENT_TURN;
-}
-
-bool is_turn(uint i)
-{
-    return (fragments[first + i].triangle & FRAGMENT_TURN) != 0;
+    vec3 n = normal_of(a), m = normal_of(b);
+    return length(cross(n, m)) < 1e-4 && abs(dot(n, m)) > 0.5;
 }
 
 // Takes away the two neighbouring turns that are nearest to each other.
@@ -63,7 +54,7 @@ void drop_turns()
     uint last = to, best = to, best_next = to;
     float least = 3.4e38;
     for (uint i = from; i < to; i++) {
-        if (!is_turn(i))
+        if (!is_marked(i))
             continue;
         if (last != to && at(i).key - at(last).key <= least) {
             least = at(i).key - at(last).key;
@@ -72,8 +63,8 @@ void drop_turns()
         }
         last = i;
     }
-    mark_turn(best, false);
-    mark_turn(best_next, false);
+    mark(best, false);
+    mark(best_next, false);
 }
 
 // Marks the crossings that turn the state, which is `solid` behind the cluster, when they are taken
@@ -87,21 +78,23 @@ uint find_turns(bool solid)
         if (is_border(i) && in_subset(SUBSET_PREFIX, i, 0))
             key = key_add(key, step_of(at(i)));
     for (uint i = from; i < to; i++) {
-        mark_turn(i, false);
+        mark(i, false);
         if (is_border(i))
             continue;
         key = key_add(key, step_of(at(i)));
         bool turned = is_solid(key, SUBSET_PREFIX, i) != now;
-        mark_turn(i, turned);
+        mark(i, turned);
         now = now != turned;
         turns += uint(turned);
     }
     return now == solid ? turns : 0;
 }
 
-// Would the state be another one without crossing i, or is it the same with it alone?
+// Would the state be another one without the leaf of crossing i, or is it the same with that alone?
+// Of a leaf that is too thin to show only one side is meant.
 bool matters(uint i, bool solid)
 {
+    like = is_paired(i) ? 0xffffffffu : ~FRAGMENT_LEAVES;
     return solid_with(SUBSET_REST, i) != solid || solid_with(SUBSET_ALONE, i) == solid;
 }
 
@@ -115,14 +108,14 @@ uint turning_point(bool solid)
         return to;
     for (uint turns = most; turns > 1; turns -= 2)
         drop_turns();
-    while (!is_turn(found))
+    while (!is_marked(found))
         found++;
     if (most == 1 || matters(found, solid))
         return found;
     find_turns(solid);
     bool makes = true;
     for (uint i = from; i < to; i++) {
-        if (!is_turn(i))
+        if (!is_marked(i))
             continue;
         if (makes && matters(i, solid))
             return i;
@@ -141,6 +134,47 @@ bool shows_before(uint i, uint best, uint cut)
     return cut == 2 || wanted == has ? a > b : wanted;
 }
 
+// May crossing i show in place of the one that turns the state?
+bool competes(uint i, uint turning)
+{
+    return !is_border(i) && !is_paired(i) &&
+           (at(i).key == at(turning).key || coplanar(at(i), at(turning)));
+}
+
+// Of the crossings that compete, the next one in the file; `to`: `last` was the last one.
+uint next_in_file(uint last, uint turning)
+{
+    uint next = to, after = last == to ? 0 : at(last).leaf >> 1;
+    for (uint i = from; i < to; i++) {
+        uint leaf = at(i).leaf >> 1;
+        bool behind = last == to || leaf > after || (leaf == after && i > last);
+        if (behind && (next == to || leaf < at(next).leaf >> 1) && competes(i, turning))
+            next = i;
+    }
+    return next;
+}
+
+// Where several crossings in one plane turn the state together, so that none of them matters: they
+// are left out in the order of the file as long as the state stays as it is. What must remain owns
+// the place as if it mattered.
+uint owner_together(uint turning, bool solid, uint cut)
+{
+    uint best = turning;
+    bool found = false;
+    for (uint i = from; i < to; i++)
+        mark(i, false);
+    for (uint i = next_in_file(to, turning); i != to; i = next_in_file(i, turning)) {
+        mark(i, true);
+        if (solid_with(SUBSET_KEPT, 0) == solid)
+            continue;
+        mark(i, false);
+        if (!found || shows_before(i, best, cut))
+            best = i;
+        found = true;
+    }
+    return best;
+}
+
 // Of the crossings at one place, the one whose surface shows there: cluster_owner in cluster.c.
 uint owner_of(bool solid)
 {
@@ -153,15 +187,11 @@ uint owner_of(bool solid)
     bool weak = is_paired(turning) || !matters(turning, solid);
     uint cut = frame.borders != 0 ? uint(!solid_with(SUBSET_ENTER, 0)) : 2;
     for (uint i = from; i < to; i++) {
-        if (i == turning || (!weak && !shows_before(i, best, cut)) || is_border(i) ||
-            is_paired(i))
-            continue;
-        if (at(i).key != at(turning).key && !coplanar(at(i), at(turning)))
-            continue;
-        if (!matters(i, solid))
+        if (i == turning || (!weak && !shows_before(i, best, cut)) || !competes(i, turning) ||
+            !matters(i, solid))
             continue;
         best = i;
         weak = false;
     }
-    return best;
+    return weak ? owner_together(turning, solid, cut) : best;
 }

@@ -4,13 +4,28 @@
 // Parts of the cluster.
 #define SUBSET_ALL    0
 #define SUBSET_PREFIX 1 // the crossings up to c
-#define SUBSET_REST   2 // all but c
-#define SUBSET_ALONE  3 // c alone
+#define SUBSET_REST   2 // all but those like c
+#define SUBSET_ALONE  3 // those like c
 #define SUBSET_ENTER  4 // those that enter
+#define SUBSET_KEPT   5 // those that are not marked
 
 bool is_border(uint i)
 {
     return (at(i).triangle & FRAGMENT_BORDER) != 0;
+}
+
+uint like; // bits of fragment.leaf that crossings like another one have in common with it
+
+// A mark on a crossing of the cluster: that it turns the state, or that it is left out.
+bool is_marked(uint i)
+{
+    return (at(i).triangle & FRAGMENT_MARK) != 0;
+}
+
+void mark(uint i, bool marked)
+{
+    uint t = fragments[first + i].triangle;
+    fragments[first + i].triangle = marked ? t | FRAGMENT_MARK : t & ~FRAGMENT_MARK;
 }
 
 // A leaf that only crosses the border of its region is inside on both sides in truth.
@@ -20,7 +35,11 @@ bool in_subset(int subset, uint i, uint c)
         return true;
     if (subset == SUBSET_ENTER || is_border(i))
         return (at(i).leaf & FRAGMENT_LEAVES) == 0;
-    return subset == SUBSET_PREFIX ? i <= c : (i == c) == (subset == SUBSET_ALONE);
+    if (subset == SUBSET_KEPT)
+        return !is_marked(i);
+    if (subset == SUBSET_PREFIX)
+        return i <= c;
+    return (((at(i).leaf ^ at(c).leaf) & like) == 0) == (subset == SUBSET_ALONE);
 }
 
 // Never 0.

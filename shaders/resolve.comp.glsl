@@ -113,6 +113,8 @@ float depth_of(float key)
 
 boundary boundary_of(fragment f)
 {
+    if ((f.leaf & FRAGMENT_LEAVES) != 0 && f.key >= frame.end)
+        return boundary(frame.end, SURFACE_NO_LEAF, SURFACE_CAP_FACE);
     bool cap = f.key <= frame.start || (f.triangle & FRAGMENT_BORDER) != 0;
     uint face = cap ? SURFACE_CAP_FACE : faces[f.triangle & FRAGMENT_TRIANGLE];
     return boundary(f.key, f.leaf >> 1, face);
@@ -237,7 +239,9 @@ bool walk(uvec2 key)
         return false;
     }
     to = i;
-    bool now = !ends_thin(key) && is_solid(key, SUBSET_ALL, 0);
+    bool now = is_solid(key, SUBSET_ALL, 0);
+    if (now && ends_thin(key)) // nothing begins there any more
+        now = solid;
     if (!unknown && now != solid && change(now))
         return true;
     if (!unknown)

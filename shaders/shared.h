@@ -62,7 +62,7 @@
 // The low bit of fragment.leaf.
 #define FRAGMENT_LEAVES 1u
 // Bits of fragment.triangle.
-#define FRAGMENT_TURN     0x80000000u // turns the state of its cluster
+#define FRAGMENT_MARK     0x80000000u // for the search for the owner of a cluster
 #define FRAGMENT_BORDER   0x40000000u // no surface, but where the leaf meets its region's border
 #define FRAGMENT_WINDING  0x20000000u // of a leaf with LEAF_WINDING, until that is settled
 #define FRAGMENT_TRIANGLE 0x1fffffffu

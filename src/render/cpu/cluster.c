@@ -94,16 +94,6 @@ static bool solid_with_kept(const struct cluster *c)
     return solid;
 }
 
-// Would it be solid without crossing `one` of the cluster, or (alone) with no other one? A leaf
-// that only crosses the border of its region is inside on both sides in truth.
-static bool solid_if(const struct cluster *c, uint32_t one, bool alone)
-{
-    for (uint32_t i = c->from; i < c->to; i++)
-        c->room->kept[i - c->from] =
-            c->room->border[i - c->from] ? enters(c->items[i]) : (i == one) == alone;
-    return solid_with_kept(c);
-}
-
 // Is the place solid when the border of every leaf belongs to it?
 static bool solid_closed(const struct cluster *c)
 {
@@ -112,13 +102,15 @@ static bool solid_closed(const struct cluster *c)
     return solid_with_kept(c);
 }
 
-// Does the leaf of crossing i also cross the other way in the cluster? It is too thin to show.
+// Does the leaf of crossing i cross the other way as often? It is too thin to show there.
 static bool is_paired(const struct cluster *c, uint32_t i)
 {
-    for (uint32_t k = c->from; k < c->to; k++)
-        if (((uint32_t)c->items[k] ^ (uint32_t)c->items[i]) == 1)
-            return true;
-    return false;
+    uint32_t same = 0, other = 0;
+    for (uint32_t k = c->from; k < c->to; k++) {
+        same += (uint32_t)c->items[k] == (uint32_t)c->items[i];
+        other += ((uint32_t)c->items[k] ^ (uint32_t)c->items[i]) == 1;
+    }
+    return other >= same;
 }
 
 // Notes which crossings are no surfaces but the border of a region.
@@ -165,11 +157,24 @@ static uint32_t find_turns(const struct cluster *c, bool solid)
     return now == solid ? turns : 0;
 }
 
-// Does crossing i matter: would the state be another one without it, or is it the same with it
-// alone?
+// Would it be solid without the crossings `like` this one, or (alone) with no other ones? A leaf
+// that only crosses the border of its region is inside on both sides in truth.
+static bool solid_if(const struct cluster *c, uint32_t one, uint32_t like, bool alone)
+{
+    for (uint32_t i = c->from; i < c->to; i++) {
+        bool is = !(((uint32_t)c->items[i] ^ (uint32_t)c->items[one]) & like);
+        c->room->kept[i - c->from] =
+            c->room->border[i - c->from] ? enters(c->items[i]) : is == alone;
+    }
+    return solid_with_kept(c);
+}
+
+// Does crossing i matter: would the state be another one without its leaf, or is it the same with
+// that alone? Of a leaf that is too thin to show only one side is meant.
 static bool matters(const struct cluster *c, uint32_t i, bool solid)
 {
-    return solid_if(c, i, false) != solid || solid_if(c, i, true) == solid;
+    uint32_t like = is_paired(c, i) ? UINT32_MAX : UINT32_MAX - 1;
+    return solid_if(c, i, like, false) != solid || solid_if(c, i, like, true) == solid;
 }
 
 // The crossing that makes the state `solid`: taken one by one they may turn it several times, for
@@ -226,6 +231,48 @@ static bool in_one_plane(const struct cluster *c, crossing a, crossing b)
            tile_coplanar(c->behind->t, c->ray, face_of(c, a), face_of(c, b));
 }
 
+// May crossing i show in place of the one that turns the state?
+static bool competes(const struct cluster *c, uint32_t i, crossing turn)
+{
+    return !c->room->border[i - c->from] && !is_paired(c, i) && in_one_plane(c, c->items[i], turn);
+}
+
+// Of the crossings that compete, the next one in the file; c->to: `last` was the last one.
+static uint32_t next_in_file(const struct cluster *c, uint32_t last, crossing turn)
+{
+    uint32_t next = c->to;
+    for (uint32_t i = c->from; i < c->to; i++) {
+        uint32_t leaf = leaf_of(c, c->items[i])->leaf;
+        uint32_t after = last == c->to ? 0 : leaf_of(c, c->items[last])->leaf;
+        bool behind = last == c->to || leaf > after || (leaf == after && i > last);
+        if (behind && (next == c->to || leaf < leaf_of(c, c->items[next])->leaf) &&
+            competes(c, i, turn))
+            next = i;
+    }
+    return next;
+}
+
+// Where several crossings in one plane turn the state together, so that none of them matters: they
+// are left out in the order of the file as long as the state stays as it is. What must remain owns
+// the place as if it mattered.
+static crossing owner_together(const struct cluster *c, crossing turn, bool solid, int cut)
+{
+    bool *kept = c->room->kept, found = false;
+    crossing best = turn;
+    for (uint32_t i = c->from; i < c->to; i++)
+        kept[i - c->from] = !c->room->border[i - c->from] || enters(c->items[i]);
+    for (uint32_t i = c->to; (i = next_in_file(c, i, turn)) != c->to;) {
+        kept[i - c->from] = false;
+        if (solid_with_kept(c) == solid)
+            continue;
+        kept[i - c->from] = true;
+        if (!found || goes_before(c, c->items[i], best, cut))
+            best = c->items[i];
+        found = true;
+    }
+    return best;
+}
+
 // Of those in one plane with the one that turns the state, it is the latest of the file that
 // matters, because the state would be another one without it, or with it alone. A leaf too thin to
 // show and one that does not matter give way to any of these. Of geometry it is a cut face where
@@ -242,15 +289,13 @@ static crossing owner_of(const struct cluster *c, bool solid)
     int cut = c->behind->t->frame->body->borders ? !solid_closed(c) : 2;
     for (uint32_t i = c->from; i < c->to; i++) {
         crossing one = c->items[i];
-        if (i == turning || (!weak && !goes_before(c, one, best, cut)) ||
-            c->room->border[i - c->from] || is_paired(c, i) || !in_one_plane(c, one, turn))
-            continue;
-        if (!matters(c, i, solid))
+        if (i == turning || (!weak && !goes_before(c, one, best, cut)) || !competes(c, i, turn) ||
+            !matters(c, i, solid))
             continue;
         best = one;
         weak = false;
     }
-    return best;
+    return weak ? owner_together(c, turn, solid, cut) : best;
 }
 
 crossing cluster_owner(const struct cluster *c, bool solid)

@@ -112,6 +112,6 @@ static struct vec3 normal_at(struct tile *t, int ray, struct face_at at)
 bool tile_coplanar(struct tile *t, int ray, struct face_at a, struct face_at b)
 {
     struct vec3 n = normal_at(t, ray, a), m = normal_at(t, ray, b);
-    // above what six digits in matrices and points turn a plane by
-    return vec3_length(vec3_cross(n, m)) < 1e-4;
+    // above what six digits in matrices and points turn a plane by; what is no face is in no plane
+    return vec3_length(vec3_cross(n, m)) < 1e-4 && fabs(vec3_dot(n, m)) > 0.5;
 }

@@ -46,7 +46,11 @@ static void add_interval(struct tile *t, uint32_t begun, struct mesh_interval no
     if (now.leave <= start || now.enter >= end || now.leave <= now.enter)
         return;
     now.enter = now.enter < start ? start : now.enter;
-    now.leave = now.leave > end ? end : now.leave;
+    if (now.leave >= end) { // cut open there
+        now.leave = end;
+        now.leave_triangle = SURFACE_CAP;
+        now.leave_steep = 1;
+    }
     array_reserve(&m->intervals, &m->interval_capacity, m->interval_count + 1);
     m->intervals[m->interval_count++] = now;
 }

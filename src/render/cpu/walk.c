@@ -75,10 +75,18 @@ struct ray_walk {
     int32_t first_owner;
 };
 
+// Where showing ends, everything that is left ends.
+static bool is_end(const struct ray_walk *r, crossing c)
+{
+    return c & 1 && crossing_key(c) >= r->t->frame->end;
+}
+
 static float steep_at(struct ray_walk *r, crossing c)
 {
     float steep;
     uint32_t id = (uint32_t)c;
+    if (is_end(r, c))
+        return 1;
     tile_face(r->t, &r->t->leaves[id >> 1], r->ray, id & 1, crossing_key(c), &steep);
     return steep;
 }
@@ -104,10 +112,8 @@ static struct boundary boundary_at(struct ray_walk *r, crossing c)
     struct tile_leaf *l = &r->t->leaves[id >> 1];
     float key = crossing_key(c);
     uint32_t face = tile_face(r->t, l, r->ray, id & 1, key, &steep);
-    bool end = id & 1 && key >= r->t->frame->end;
-    return (struct boundary){.key = key,
-                             .leaf = end ? SURFACE_NONE : l->leaf,
-                             .face = face == FACE_REGION ? SURFACE_CAP : face};
+    return (struct boundary){
+        .key = key, .leaf = l->leaf, .face = face == FACE_REGION ? SURFACE_CAP : face};
 }
 
 static float span_depth(const struct tile *t, float key)
@@ -159,7 +165,7 @@ static uint32_t walk_list(struct ray_walk *r, bool more, bool *over)
 {
     uint32_t cluster = 0, i = 0;
     *over = false;
-    for (; i < r->count; i++) {
+    for (; i < r->count && !is_end(r, r->items[i]); i++) {
         if (i > cluster && thick(r, r->items[cluster], r->items[i])) {
             bool solid = combination_is_solid(r->combination, r->items, i);
             if (solid != r->solid && change(r, cluster, i, solid)) {
@@ -170,11 +176,15 @@ static uint32_t walk_list(struct ray_walk *r, bool more, bool *over)
         }
         combination_step(r->combination, r->items[i], false);
     }
-    if (more)
+    bool end = i < r->count;
+    if (more && !end)
         return cluster;
-    if (r->count) {
-        bool solid = combination_is_solid(r->combination, r->items, r->count);
-        if (solid != r->solid && change(r, cluster, r->count, solid))
+    *over = end;
+    if (i) {
+        bool solid = combination_is_solid(r->combination, r->items, i);
+        if (solid && end && !thick(r, r->items[cluster], r->items[i]))
+            solid = r->solid; // nothing begins there any more
+        if (solid != r->solid && change(r, cluster, i, solid))
             *over = true;
     }
     return r->count;
