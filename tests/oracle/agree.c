@@ -132,7 +132,8 @@ static void note(struct agreement_of *out, bool same, double depth, const struct
                  bool border, int x, int y)
 {
     double inner = border ? 0 : depth;
-    if (inner > out->depth || (!same && !out->others && !(out->depth > 0))) {
+    bool deepest = inner > fmax(out->depth, v->tolerance);
+    if (deepest || (!same && !out->others && out->depth <= v->tolerance)) {
         out->x = x;
         out->y = y;
     }

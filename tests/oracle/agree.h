@@ -12,7 +12,7 @@ struct agreement_of {
     uint64_t others; // pixels with another leaf, or with other leaves at the ends of their spans
     uint64_t apart;  // of these: with another depth too
     double depth; // largest difference away from silhouettes; INFINITY: there only in one picture
-    int x, y;     // of that
+    int x, y;     // of that, or the first with another leaf when no depth is beyond the tolerance
 };
 
 struct agreement {

@@ -48,6 +48,7 @@ static void explain_pixel(const struct agreement_of *of, const struct side *side
     printf("pixel %d %d, as drawn by the first and the second:\n", of->x, of->y);
     report_device(stdout, &side->rays, a, of->x, of->y);
     report_device(stdout, &side->rays, b, of->x, of->y);
+    report_crossings(stdout, side->body, &side->rays, of->x, of->y);
 }
 
 static void compare(struct agreement *out, struct device *first, struct device *second,

@@ -24,20 +24,42 @@ void report_device(FILE *out, const struct rays *rays, const struct picture *p, 
     fprintf(out, "\n");
 }
 
+static void print_crossings(FILE *out, const struct rays *rays, const struct oracle_ray *ray)
+{
+    fprintf(out, "  near %g far %g, ray (%.9g %.9g %.9g) + t (%.9g %.9g %.9g)\n", rays->near,
+            rays->far, ray->origin.x, ray->origin.y, ray->origin.z, ray->direction.x,
+            ray->direction.y, ray->direction.z);
+    for (uint32_t i = 0; i < ray->crossing_count && i < 100; i++) {
+        const struct oracle_crossing *k = &ray->crossings[i];
+        fprintf(out, "    %.9f %s leaf %u face %u, |n.d| %.6g\n", k->depth,
+                k->delta > 0 ? "into" : "out of", k->leaf, k->face, k->cosine);
+    }
+}
+
 void report_pixel(FILE *out, const struct comparison *c, const struct picture *p, int x, int y)
 {
     report_device(out, c->rays, p, x, y);
     fprintf(out, "  oracle spans (%u):", c->answer.count);
     for (uint32_t k = 0; k < c->answer.count; k++)
         fprintf(out, " [%.6f .. %.6f]", c->answer.spans[k].enter.low, c->answer.spans[k].leave.low);
-    fprintf(out, "\n  near %g far %g, ray (%.9g %.9g %.9g) + t (%.9g %.9g %.9g)\n", c->rays->near,
-            c->rays->far, c->ray.origin.x, c->ray.origin.y, c->ray.origin.z, c->ray.direction.x,
-            c->ray.direction.y, c->ray.direction.z);
-    for (uint32_t i = 0; i < c->ray.crossing_count && i < 100; i++) {
-        const struct oracle_crossing *k = &c->ray.crossings[i];
-        fprintf(out, "    %.9f %s leaf %u face %u, |n.d| %.6g\n", k->depth,
-                k->delta > 0 ? "into" : "out of", k->leaf, k->face, k->cosine);
-    }
+    fprintf(out, "\n");
+    print_crossings(out, c->rays, &c->ray);
+}
+
+void report_crossings(FILE *out, const struct body *body, const struct rays *rays, int x, int y)
+{
+    size_t token_count;
+    struct expr_token *tokens = subject_tokens(&body->expr, &token_count);
+    struct oracle_leaf *leaves = subject_leaves(body);
+    struct oracle_ray ray = {0};
+    struct oracle oracle;
+    oracle_init(&oracle, leaves, body->leaf_count, tokens, token_count);
+    oracle_cast(&oracle, rays, x, y, &ray);
+    print_crossings(out, rays, &ray);
+    oracle_ray_free(&ray);
+    oracle_free(&oracle);
+    free(leaves);
+    free(tokens);
 }
 
 struct judgement {

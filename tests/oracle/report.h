@@ -8,6 +8,9 @@
 // What a device says of a pixel.
 void report_device(FILE *out, const struct rays *rays, const struct picture *p, int x, int y);
 
+// What the ray of a pixel meets.
+void report_crossings(FILE *out, const struct body *body, const struct rays *rays, int x, int y);
+
 // Both answers at a pixel that was just compared, and the crossings of the ray.
 void report_pixel(FILE *out, const struct comparison *c, const struct picture *p, int x, int y);
 

@@ -3,7 +3,7 @@
 //   test_oracle random [--count N] [--seed N] [--threads N]   random trees, pixel by pixel
 //   test_oracle random --seed N --pixel X Y                   one pixel, with the fewest leaves
 //   test_oracle threads | memory | slabs | walks              one picture whatever the settings
-//   test_oracle FILE.csg WIDTH HEIGHT                         a file from several sides
+//   test_oracle FILE.csg WIDTH HEIGHT [--pixel X Y]           a file from several sides
 //   test_oracle agree random [--count N] ...                  two ways to draw, not the oracle
 //   test_oracle agree broken [--count N] ...                  of meshes that are open or inside out
 //   test_oracle agree FILE.csg WIDTH HEIGHT ...
@@ -61,7 +61,8 @@ static void compare_picture(struct outcome *out, struct comparison *c, const str
 }
 
 static void compare_side(struct outcome *out, struct device *device, const struct side *side,
-                         const struct expr_token *tokens, size_t token_count)
+                         const struct expr_token *tokens, size_t token_count,
+                         const struct options *pixel)
 {
     struct picture picture;
     struct oracle oracle;
@@ -72,6 +73,10 @@ static void compare_side(struct outcome *out, struct device *device, const struc
                            .rays = &side->rays,
                            .epsilon = side->settings.epsilon,
                            .tolerance = side->tolerance};
+    if (pixel->one_pixel) {
+        compare_pixel(&c, &picture, pixel->x, pixel->y);
+        report_pixel(stdout, &c, &picture, pixel->x, pixel->y);
+    }
     compare_picture(out, &c, &picture);
     compare_free(&c);
     oracle_free(&oracle);
@@ -96,7 +101,8 @@ static void compare_seed(void *context, uint32_t item, uint32_t worker)
     subject_make(&subject, &scene);
     side_of_scene(&side, &scene, &subject.body);
     side.settings.walk = job->options->walk;
-    compare_side(out, job->crew.devices[worker], &side, scene.tokens, scene.token_count);
+    compare_side(out, job->crew.devices[worker], &side, scene.tokens, scene.token_count,
+                 job->options);
     out->aligned = scene.aligned;
     subject_free(&subject);
     random_scene_free(&scene);
@@ -270,6 +276,7 @@ static int run_same(const struct options *options, const struct render_settings 
 }
 
 struct file_job {
+    const struct options *options;
     struct device *device;
     int failed;
 };
@@ -280,7 +287,7 @@ static void judge_side(void *context, const struct side *side)
     struct outcome o = {.explain = true};
     size_t token_count;
     struct expr_token *tokens = subject_tokens(&side->body->expr, &token_count);
-    compare_side(&o, job->device, side, tokens, token_count);
+    compare_side(&o, job->device, side, tokens, token_count, job->options);
     print_outcome(side->name, &o);
     job->failed += !acceptable(&o, side->aligned);
     free(tokens);
@@ -288,7 +295,7 @@ static void judge_side(void *context, const struct side *side)
 
 static int run_file(const struct options *o)
 {
-    struct file_job job = {.device = device_under_test(o->gl)};
+    struct file_job job = {.options = o, .device = device_under_test(o->gl)};
     bool read = sides_of_file(o->file, o->width, o->height, judge_side, &job);
     device_delete(job.device);
     return read && !job.failed ? 0 : 1;
