@@ -19,17 +19,19 @@ static struct {
     double epsilon;
     struct option_list import_folders;
     bool stats, no_watch;
-} given = {.size = {1024, 768}, .epsilon = -1, .megabytes = 256, .device = "cpu"};
+} given = {.epsilon = -1, .megabytes = 256, .device = "cpu"};
 
 static const struct option options[] = {
     {"camera", 0, OPTION_TEXT, "NUMBERS", "x,y,z,rx,ry,rz,distance or eye and centre x,y,z,x,y,z",
      &given.camera, 0, 0},
     {"projection", 0, OPTION_TEXT, "KIND", "o(rtho) or p(erspective)", &given.projection, 0, 0},
     {"colorscheme", 0, OPTION_TEXT, "NAME",
-     "one of OpenSCAD's, Cornfield if not given,\nor a file FILE.json with one", &given.scheme, 0,
-     0},
-    {"size", 0, OPTION_SIZE, "W,H", "of the window in pixels, 1024,768 if not given", given.size,
-     64, 16384},
+     "one of OpenSCAD's, or a file FILE.json with one;\nif not given that of the last window, at "
+     "first Cornfield",
+     &given.scheme, 0, 0},
+    {"size", 0, OPTION_SIZE, "W,H",
+     "of the window in pixels; if not given that of the\nlast window, at first 1024,768",
+     given.size, 64, 16384},
     {"device", 0, OPTION_TEXT, "auto|cpu|gl",
      "what draws: the processor (default), OpenGL, or OpenGL\nwhere there is a graphics processor "
      "for it",
@@ -51,6 +53,7 @@ static const struct option options[] = {
 };
 
 static struct scheme own_scheme; // of a file
+static struct settings remembered;
 
 // Said before a window opens; a file that breaks later, or does not exist yet, only leaves a
 // message in the window.
@@ -73,20 +76,30 @@ static bool check_file(const char *path, struct error *err)
 
 static bool set_options(struct viewer_options *o, struct error *err)
 {
+    struct error odd;
+    struct settings *s = &remembered;
+    if (!settings_read(s, &odd))
+        fprintf(stderr, "hcsg-view: %s\n", odd.text);
+    if (!scheme_choose(s->scheme, &own_scheme, NULL)) // it may be gone
+        snprintf(s->scheme, sizeof s->scheme, "%s", SETTINGS_DEFAULTS.scheme);
     *o = (struct viewer_options){
         .openscad = given.openscad,
         .camera = CAMERA_DEFAULTS,
         .fixed_camera = given.camera != NULL,
-        .scheme = scheme_choose(given.scheme ? given.scheme : "Cornfield", &own_scheme, err),
+        .scheme = scheme_choose(given.scheme ? given.scheme : s->scheme, &own_scheme, err),
         .epsilon = given.epsilon,
         .import_folders = given.import_folders.items,
         .import_folder_count = given.import_folders.count,
         .threads = given.threads,
         .memory = (size_t)given.megabytes << 20,
-        .width = given.size[0],
-        .height = given.size[1],
+        .width = given.size[0] ? given.size[0] : s->width,
+        .height = given.size[1] ? given.size[1] : s->height,
+        .settings = *s,
+        .given_size = given.size[0],
+        .given_projection = given.projection,
         .watch = !given.no_watch,
         .stats = given.stats};
+    o->camera.orthographic = s->orthographic;
     return o->scheme && device_wish_parse(&o->device, given.device, err) &&
            (!given.camera || camera_parse(&o->camera, given.camera, err)) &&
            (!given.projection || camera_parse_projection(&o->camera, given.projection, err));

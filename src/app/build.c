@@ -16,7 +16,6 @@ struct build {
     double epsilon;
     const char *const *import_folders;
     uint32_t import_folder_count;
-    const struct scheme *scheme;
     void (*done)(void *context, struct build_task *task);
     void *context;
     uv_work_t work;
@@ -44,7 +43,6 @@ void loaded_free(struct loaded *s)
 {
     for (struct loaded *next; s; s = next) {
         next = s->next;
-        shader_free(&s->shader);
         model_free(&s->model);
         source_release(s->source);
         free(s);
@@ -70,11 +68,13 @@ static void make(struct build *b, struct source *source, const struct csg_tree *
 {
     struct loaded *s = mem_zalloc(sizeof *s);
     struct model_options options = MODEL_DEFAULTS;
+    options.mode = b->now.mode;
     options.epsilon = b->epsilon;
     options.import_folders = b->import_folders;
     options.import_folder_count = b->import_folder_count;
     options.cancelled = &b->cancelled;
-    options.before = b->before ? &b->before->model : NULL;
+    bool alike = b->before && b->before->model.mode == options.mode;
+    options.before = alike ? &b->before->model : NULL;
     model_build(&s->model, tree, b->store, &options, &b->now.messages);
     if (atomic_load(&b->cancelled)) {
         loaded_free(s);
@@ -83,7 +83,6 @@ static void make(struct build *b, struct source *source, const struct csg_tree *
     s->source = source_hold(source);
     s->version = b->now.version;
     s->visible = visible_box(&s->model);
-    shader_init(&s->shader, &s->model, b->scheme);
     atomic_init(&s->references, 1);
     b->now.loaded = s;
     b->now.times.built = clock_seconds();
@@ -169,7 +168,6 @@ struct build *build_new(struct uv_loop_s *loop, const struct loader_options *opt
     b->epsilon = options->epsilon;
     b->import_folders = options->import_folders;
     b->import_folder_count = options->import_folder_count;
-    b->scheme = options->scheme;
     b->done = done;
     b->context = context;
     b->work.data = b;

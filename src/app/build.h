@@ -5,12 +5,13 @@
 struct uv_loop_s;
 
 struct build_task {
-    char *name;               // of the file, also that the text stands for; owned
-    char *text;               // as file_read gives it, NULL: read the file; owned
-    size_t size;              // of the text
-    struct source *source;    // of an edit: what the tree borrows from, held; else NULL
-    struct csg_tree tree;     // of an edit: owned
-    uint64_t version;         // edit_version of it
+    char *name;            // of the file, also that the text stands for; owned
+    char *text;            // as file_read gives it, NULL: read the file; owned
+    size_t size;           // of the text
+    struct source *source; // of an edit: what the tree borrows from, held; else NULL
+    struct csg_tree tree;  // of an edit: owned
+    uint64_t version;      // edit_version of it
+    enum model_mode mode;
     struct report report;     // of what was done before
     struct messages messages; // of the making
     struct load_times times;  // `noticed` as asked

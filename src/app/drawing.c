@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/mem.h"
+#include "render/facets.h"
 #include "render/picture.h"
 
 #include <stdlib.h>
@@ -32,15 +33,61 @@ void shot_free(struct shot *s)
     *s = (struct shot){0};
 }
 
+// What is made of a model before its first picture, and kept for the next ones.
+struct prepared {
+    struct loaded *loaded; // held; NULL: nothing is prepared
+    struct shader shader;
+    struct facets *facets; // NULL until edges are asked for
+};
+
+static void prepared_free(struct prepared *p)
+{
+    facets_delete(p->facets);
+    if (p->loaded)
+        shader_free(&p->shader);
+    loaded_release(p->loaded);
+    *p = (struct prepared){0};
+}
+
+static void prepare(struct prepared *p, const struct drawing_job *job)
+{
+    if (p->loaded != job->loaded || p->shader.scheme != job->scheme) {
+        prepared_free(p);
+        p->loaded = loaded_hold(job->loaded);
+        shader_init(&p->shader, &p->loaded->model, job->scheme);
+    }
+    if (job->view.edges && !p->facets)
+        p->facets = facets_new(&p->loaded->model);
+}
+
+// As OpenSCAD: of evaluated geometry the result of a boolean shows its edges, a lone shape none.
+static void want_edges(struct prepared *p, struct picture *picture, bool edges)
+{
+    const struct model *m = &p->loaded->model;
+    bool wires = edges && m->mode == MODEL_RENDER && !m->single && !m->flat;
+    p->shader.edges = edges && m->mode == MODEL_PREVIEW ? p->facets : NULL;
+    picture->wires = wires ? p->facets : NULL;
+}
+
 static void draw(struct shot *s, const struct drawing_job *job, struct device *device,
-                 struct picture *picture)
+                 struct prepared *prepared, struct picture *picture)
 {
     loaded_release(s->job.loaded);
     s->job = *job;
     s->begun = clock_seconds();
     struct rays rays =
         camera_rays(&job->camera, job->width, job->height, job->loaded->model.bounds);
-    picture_draw(picture, device, &job->loaded->shader, &rays, &job->settings, &s->stats);
+    const struct overlay overlay = {.scheme = job->scheme,
+                                    .centre = job->camera.centre,
+                                    .distance = job->camera.distance,
+                                    .axes = job->view.axes,
+                                    .scales = job->view.axes && job->view.scales,
+                                    .crosshairs = job->view.crosshairs};
+    prepare(prepared, job);
+    want_edges(prepared, picture, job->view.edges);
+    picture->overlay = &overlay;
+    picture_draw(picture, device, &prepared->shader, &rays, &job->settings, &s->stats);
+    picture->overlay = NULL;
     size_t size = 3 * (size_t)job->width * (size_t)job->height;
     if (s->capacity < size) {
         free(s->rgb);
@@ -66,6 +113,7 @@ static void run(void *context)
 {
     struct drawing *d = context;
     struct picture picture = {0};
+    struct prepared prepared = {0};
     struct shot work = {0};
     for (;;) {
         uv_mutex_lock(&d->mutex);
@@ -82,7 +130,7 @@ static void run(void *context)
             break;
         }
         job.settings.cancelled = &d->cancelled;
-        draw(&work, &job, d->device, &picture);
+        draw(&work, &job, d->device, &prepared, &picture);
         struct error failure;
         bool failed = device_failed(d->device, &failure);
         uv_mutex_lock(&d->mutex);
@@ -99,6 +147,7 @@ static void run(void *context)
             d->done(d->context);
     }
     shot_free(&work);
+    prepared_free(&prepared);
     picture_free(&picture);
 }
 

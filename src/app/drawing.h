@@ -3,10 +3,17 @@
 #include "app/loader.h"
 #include "render/camera.h"
 #include "render/device.h"
+#include "render/scheme.h"
+
+struct drawing_view { // what is drawn besides the model, as --view of hcsg-render
+    bool axes, scales, crosshairs, edges;
+};
 
 struct drawing_job {
     struct loaded *loaded; // borrowed when asked; held by the shot
     struct camera camera;
+    const struct scheme *scheme; // borrowed for good
+    struct drawing_view view;
     int width, height;         // of the picture
     int for_width, for_height; // pixels of the window that it stands for
     int divisor;               // how many of them, across, one pixel of the picture stands for

@@ -23,13 +23,21 @@ enum action {
     ACTION_TURN_UP,
     ACTION_TURN_DOWN,
     ACTION_LAST_OF_CAMERA = ACTION_TURN_DOWN, // the others are the viewer's
-    ACTION_RELOAD,
+    ACTION_EDGES,
+    ACTION_AXES,
+    ACTION_CROSSHAIRS,
+    ACTION_SCALES,
+    ACTION_SCHEME,
+    ACTION_RELOAD,  // as a preview
+    ACTION_RENDER,  // as geometry
     ACTION_GIVE_UP, // what goes on
     ACTION_SAVE,
     ACTION_COPY_CAMERA,
+    ACTION_PASTE_CAMERA,
     ACTION_HELP,
     ACTION_CONSOLE,
     ACTION_STATUS,
+    ACTION_FULL_SCREEN,
     ACTION_QUIT,
 };
 

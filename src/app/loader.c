@@ -43,12 +43,14 @@ struct loader {
     bool patient;          // failures may pass
     bool loading;          // what was saved is being made into a model
     struct source *source; // of the newest model; held
+    enum model_mode mode;
 
     uv_mutex_t mutex; // guards what follows
     struct loaded *retired;
     struct loader_news news;
     struct build_task edit; // asked for; without a source: none
     bool fresh, stopping, reload, cancel;
+    enum model_mode wanted; // the mode from the next load on
 };
 
 struct loaded *loaded_hold(struct loaded *s)
@@ -198,7 +200,7 @@ static void on_built(void *context, struct build_task *task)
 static void on_exported(void *context, struct scad_result *result, const struct error *err)
 {
     struct loader *l = context;
-    struct build_task task = {.times.noticed = l->noticed};
+    struct build_task task = {.mode = l->mode, .times.noticed = l->noticed};
     l->job = NULL;
     task.times.openscad = clock_seconds() - l->exporting;
     report_scad(&task.report, result, err);
@@ -225,13 +227,18 @@ static void on_exported(void *context, struct scad_result *result, const struct 
 
 static void begin(struct loader *l)
 {
-    struct build_task task = {.name = mem_strdup(l->options.path), .times.noticed = l->noticed};
+    // Without a value the option would take the file for one.
+    static const char *const render[] = {"--render=force"};
+    const struct scad_options options = {.program = l->options.openscad,
+                                         .arguments = render,
+                                         .argument_count = l->mode == MODEL_RENDER};
+    struct build_task task = {
+        .name = mem_strdup(l->options.path), .mode = l->mode, .times.noticed = l->noticed};
     if (!l->is_scad) {
         ask_build(l, &task);
     } else if (access(task.name, F_OK) == 0) {
         l->exporting = clock_seconds();
-        l->job = scad_start(&l->loop, l->options.path,
-                            &(struct scad_options){.program = l->options.openscad}, on_exported, l);
+        l->job = scad_start(&l->loop, l->options.path, &options, on_exported, l);
         publish(l, NULL, NULL, false);
     } else if (!try_again(l)) {
         struct error err;
@@ -268,6 +275,7 @@ static void give_up(struct loader *l)
     build_cancel(l->build);
     l->building = 0;
     l->loading = false;
+    l->loading = false;
     publish(l, NULL, NULL, false);
 }
 
@@ -297,6 +305,7 @@ static void on_wake(uv_async_t *handle)
     bool reload = l->reload, cancel = l->cancel, stopping = l->stopping;
     l->retired = NULL;
     l->edit = (struct build_task){0};
+    l->mode = l->wanted;
     l->reload = l->cancel = false;
     uv_mutex_unlock(&l->mutex);
     build_retire(l->build, retired);
@@ -318,6 +327,7 @@ static void on_wake(uv_async_t *handle)
         l->patient = false;
         load(l, clock_seconds());
     }
+    edit.mode = l->mode;
     if (edit.source && edit.source == l->source && !l->loading)
         ask_build(l, &edit);
     build_task_free(&edit);
@@ -405,6 +415,14 @@ static void set_flag(struct loader *l, bool *flag)
 
 void loader_reload(struct loader *l)
 {
+    set_flag(l, &l->reload);
+}
+
+void loader_set_mode(struct loader *l, enum model_mode mode)
+{
+    uv_mutex_lock(&l->mutex);
+    l->wanted = mode;
+    uv_mutex_unlock(&l->mutex);
     set_flag(l, &l->reload);
 }
 

@@ -3,7 +3,6 @@
 #include "app/report.h"
 #include "edit/edit.h"
 #include "model/model.h"
-#include "render/shade.h"
 
 #include <stdatomic.h>
 
@@ -17,7 +16,6 @@ struct load_times { // clock_seconds
 // One loaded model, shared by the threads that show it.
 struct loaded {
     struct model model;
-    struct shader shader;
     struct box visible; // holds all that can show, closer than the model's bounds
     struct load_times times;
     uint32_t number;       // of the load, from 1
@@ -37,7 +35,6 @@ struct loader_options {
     double epsilon;       // of struct model_options, as the next two
     const char *const *import_folders;
     uint32_t import_folder_count;
-    const struct scheme *scheme;
     bool watch;
     // Called from the loader's thread when there are news, and when the program was asked to end.
     void (*woken)(void *context);
@@ -63,6 +60,8 @@ void loader_reload(struct loader *l); // as if the file had been saved
 // faster than models some are left out, never the last. One of an older source is not shown any
 // more: a newer file is on its way, or there.
 void loader_edit(struct loader *l, const struct edit *e);
+// Loads with another mode; MODEL_RENDER also makes openscad's $preview false.
+void loader_set_mode(struct loader *l, enum model_mode mode);
 void loader_cancel(struct loader *l); // gives up what goes on, until the file is saved again
 // All models have to be released before.
 void loader_stop(struct loader *l);

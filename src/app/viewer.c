@@ -1,22 +1,15 @@
 // viewer.c - hcsg-view: one window that shows one file.
 #include "app/viewer.h"
 
-#include "app/drawing.h"
-#include "app/gui.h"
-#include "app/input.h"
-#include "app/loader.h"
-#include "app/pace.h"
-#include "app/panels.h"
-#include "app/window.h"
+#include "app/settings.h"
+#include "app/stats.h"
+#include "app/viewer_state.h"
 #include "base/clock.h"
 #include "base/mem.h"
-#include "io/write_png.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 // A frame that follows the hand takes this long at most; what is slower is drawn with fewer pixels
 // and refined when nothing moved for a while.
@@ -24,41 +17,10 @@ static const double frame_seconds = 0.033, still_seconds = 0.12;
 // What lasts longer than this is told, and how long it has lasted so often.
 static const double told_seconds = 0.5, tick_seconds = 0.1;
 
-struct viewer {
-    const struct viewer_options *options;
-    struct window *window;
-    struct input input;
-    struct loader *loader;
-    struct drawing *drawing;
-    struct loaded *loaded; // the newest
-    struct shot shown;
-    bool framed;               // the camera stands
-    bool drawn;                // a shot of the newest job was shown
-    int divisor;               // of the newest job
-    double refine_at;          // when a coarse job may be followed by a full one
-    double drawing_since;      // of the newest job, until its shot comes or it is given up; 0: none
-    double shown_at, interval; // of the newest shot, and from shot to shot while something moves
-    double ticked;             // when it was told how long something lasts
-    struct pace pace;
-    uint32_t reported; // number of the last load whose way was printed
-    struct report report;
-    char note[1100]; // what the newest command has to say, "" for nothing
-    bool failed, ended, save;
-    enum load_phase phase;
-    double phase_since;
-    struct panels panels;
-};
-
 static void wake(void *context)
 {
     (void)context;
     glfwPostEmptyEvent();
-}
-
-static const char *file_name(const struct viewer *v)
-{
-    const char *slash = strrchr(v->options->path, '/');
-    return slash ? slash + 1 : v->options->path;
 }
 
 // Nothing is drawn for a minimised window; GLFW tells when it comes back.
@@ -69,19 +31,15 @@ static bool is_seen(const struct viewer *v)
            !glfwGetWindowAttrib(handle, GLFW_ICONIFIED);
 }
 
-static void repaint(struct viewer *v)
-{
-    v->input.repaints = GUI_SETTLES;
-}
-
 static void show_title(struct viewer *v)
 {
     char title[256];
     const struct report_line *error = report_first(&v->report, REPORT_ERROR);
     if (v->failed)
-        snprintf(title, sizeof title, "%s: error: %s", file_name(v), error ? error->text : "");
+        snprintf(title, sizeof title, "%s: error: %s", viewer_file_name(v),
+                 error ? error->text : "");
     else
-        snprintf(title, sizeof title, "%s%s - hcsg-view", file_name(v),
+        snprintf(title, sizeof title, "%s%s - hcsg-view", viewer_file_name(v),
                  v->phase == LOAD_EXPORT ? " (openscad runs)"
                  : v->loaded             ? ""
                                          : " (loading)");
@@ -153,7 +111,7 @@ static void take_news(struct viewer *v)
     bool busy = news.phase != LOAD_NONE;
     report_free(&v->report);
     v->report = news.report;
-    if (busy && v->phase == LOAD_NONE)
+    if (news.loaded || (busy && v->phase == LOAD_NONE))
         *v->note = 0;
     v->failed = news.failed;
     v->phase = news.phase;
@@ -163,10 +121,10 @@ static void take_news(struct viewer *v)
     panels_take_report(&v->panels, &facts);
     show_title(v);
     if (!busy)
-        repaint(v);
+        viewer_repaint(v);
 }
 
-static void ask(struct viewer *v, bool refined)
+void viewer_ask(struct viewer *v, bool refined)
 {
     v->input.area = panels_area(&v->panels);
     int width = v->input.area.width, height = v->input.area.height;
@@ -177,6 +135,8 @@ static void ask(struct viewer *v, bool refined)
     struct drawing_job job = {
         .loaded = v->loaded,
         .camera = v->input.camera,
+        .scheme = v->scheme,
+        .view = v->view,
         .width = (width + v->divisor - 1) / v->divisor,
         .height = (height + v->divisor - 1) / v->divisor,
         .for_width = width,
@@ -192,73 +152,6 @@ static void ask(struct viewer *v, bool refined)
     drawing_ask(v->drawing, &job);
 }
 
-static void print_passes(const struct render_stats *stats)
-{
-    for (int i = 0; i < RENDER_PASSES && stats->passes[i].name; i++)
-        printf("%s %s %.2f", i ? "," : "passes, ms:", stats->passes[i].name,
-               1e3 * stats->passes[i].seconds);
-    if (stats->passes[0].name)
-        printf("\n");
-}
-
-static void print_memory(const struct render_stats *stats)
-{
-    const double mb = 1 << 20;
-    printf("memory, MB: frame %.1f", (double)stats->peak_bytes / mb);
-    if (stats->model_bytes)
-        printf(", model %.1f", (double)stats->model_bytes / mb);
-    printf("\n");
-}
-
-static void print_stats(struct viewer *v, double shown)
-{
-    const struct shot *s = &v->shown;
-    const struct load_times *t = &s->job.loaded->times;
-    printf("frame %dx%d 1/%d: %.1f ms, asked to shown %.1f ms, setup %.2f ms", s->job.width,
-           s->job.height, s->job.divisor, 1e3 * (s->done - s->begun), 1e3 * (shown - s->job.asked),
-           1e3 * s->stats.seconds_setup);
-    if (s->stats.fragments) // the rays that need a walk
-        printf(", walked %llu surfaces, %llu combinations new",
-               (unsigned long long)s->stats.fragments, (unsigned long long)s->stats.misses);
-    printf("\n");
-    if (s->stats.waits.count)
-        printf("waits for the graphics processor: %llu, %.2f ms, longest %.2f ms\n",
-               (unsigned long long)s->stats.waits.count, 1e3 * s->stats.waits.seconds,
-               1e3 * s->stats.waits.longest);
-    print_passes(&s->stats);
-    print_memory(&s->stats);
-    if (s->job.loaded->number != v->reported)
-        printf("load %u: %.1f ms to shown (wait %.1f, parse %.1f, model %.1f, draw %.1f, "
-               "show %.1f), %u leaves\n",
-               s->job.loaded->number, 1e3 * (shown - t->noticed), 1e3 * (t->started - t->noticed),
-               1e3 * (t->parsed - t->started), 1e3 * (t->built - t->parsed),
-               1e3 * (s->done - t->built), 1e3 * (shown - s->done),
-               s->job.loaded->model.stats.leaves);
-    fflush(stdout);
-}
-
-// In the current folder, under the first name that is free: part-1.png, part-2.png ...
-static void save_picture(struct viewer *v)
-{
-    const char *name = file_name(v), *dot = strrchr(name, '.');
-    int stem = dot && dot != name ? (int)(dot - name) : (int)strlen(name);
-    char path[600];
-    struct error err;
-    int number = 1;
-    do
-        snprintf(path, sizeof path, "%.*s-%d.png", stem < 500 ? stem : 500, name, number++);
-    while (access(path, F_OK) == 0);
-    if (write_png(path, v->shown.rgb, v->shown.job.width, v->shown.job.height, &err)) {
-        printf("%s\n", path);
-        snprintf(v->note, sizeof v->note, "saved %s", path);
-    } else {
-        fprintf(stderr, "hcsg-view: %s\n", err.text);
-        snprintf(v->note, sizeof v->note, "cannot save the picture: %s", err.text);
-    }
-    fflush(stdout);
-    repaint(v);
-}
-
 static void take_failure(struct viewer *v)
 {
     struct error why;
@@ -266,7 +159,7 @@ static void take_failure(struct viewer *v)
         return;
     fprintf(stderr, "hcsg-view: %s\n", why.text);
     snprintf(v->note, sizeof v->note, "%s", why.text);
-    repaint(v);
+    viewer_repaint(v);
 }
 
 static void take_shot(struct viewer *v)
@@ -288,82 +181,12 @@ static void take_shot(struct viewer *v)
     v->drawn = true;
     v->drawing_since = 0;
     if (v->options->stats)
-        print_stats(v, shown);
+        stats_print(s, shown, s->job.loaded->number != v->reported);
     v->reported = s->job.loaded->number;
     if (v->save && s->job.divisor == 1) {
         v->save = false;
-        save_picture(v);
+        commands_save_picture(v);
     }
-}
-
-// "--camera=..." as both programs take it.
-static void copy_camera(struct viewer *v)
-{
-    char text[CAMERA_TEXT];
-    camera_print(&v->input.camera, text);
-    snprintf(v->note, sizeof v->note, "--camera=%s%s", text,
-             v->input.camera.orthographic ? " --projection=o" : "");
-    gui_copy(v->note);
-    printf("%s\n", v->note);
-    fflush(stdout);
-}
-
-static void give_up(struct viewer *v)
-{
-    double since;
-    doing(v, &since);
-    if (since == 0)
-        return;
-    if (v->phase != LOAD_NONE)
-        loader_cancel(v->loader);
-    else
-        drawing_cancel(v->drawing);
-    v->drawing_since = v->phase != LOAD_NONE ? v->drawing_since : 0;
-    snprintf(v->note, sizeof v->note, "given up");
-}
-
-static void obey(struct viewer *v, enum action action)
-{
-    bool *open = v->panels.open;
-    *v->note = 0;
-    switch (action) {
-    case ACTION_RELOAD:
-        loader_reload(v->loader);
-        break;
-    case ACTION_GIVE_UP:
-        give_up(v);
-        break;
-    case ACTION_SAVE:
-        v->save = true;
-        ask(v, true);
-        break;
-    case ACTION_COPY_CAMERA:
-        copy_camera(v);
-        break;
-    case ACTION_HELP:
-        open[PANEL_HELP] = !open[PANEL_HELP];
-        break;
-    case ACTION_CONSOLE:
-        open[PANEL_CONSOLE] = !open[PANEL_CONSOLE];
-        v->panels.console_by_itself = false;
-        break;
-    case ACTION_STATUS:
-        open[PANEL_STATUS] = !open[PANEL_STATUS];
-        break;
-    case ACTION_QUIT:
-        glfwSetWindowShouldClose(window_handle(v->window), GLFW_TRUE);
-        break;
-    default:
-        break;
-    }
-    repaint(v);
-}
-
-static void obey_all(struct viewer *v)
-{
-    for (uint32_t i = 0; i < v->input.action_count; i++)
-        obey(v, v->input.actions[i]);
-    v->input.action_count = 0;
 }
 
 // Asks for the pictures that are due; returns how long to wait for events, 0 for ever.
@@ -373,12 +196,12 @@ static double plan(struct viewer *v)
     if (v->input.moved && is_seen(v)) {
         v->input.moved = false;
         v->refine_at = v->refine_at == 0 ? now : now + still_seconds;
-        ask(v, false);
+        viewer_ask(v, false);
     }
     double wait = 0;
     if (v->divisor > 1 && v->drawn) {
         if (now >= v->refine_at)
-            ask(v, true);
+            viewer_ask(v, true);
         else
             wait = v->refine_at - now;
     }
@@ -405,7 +228,7 @@ static void run(struct viewer *v)
             return;
         take_shot(v);
         take_failure(v);
-        obey_all(v);
+        commands_obey(v);
         double wait = plan(v);
         if (v->input.repaints && is_seen(v)) {
             v->input.repaints--;
@@ -425,19 +248,40 @@ static void say(void *context, const char *line)
     fprintf(stderr, "hcsg-view: %s\n", line);
 }
 
+// What the command line says holds for this window, and is not remembered.
+static void remember(const struct viewer *v)
+{
+    const struct viewer_options *o = v->options;
+    struct settings s = o->settings;
+    struct error err;
+    GLFWwindow *handle = window_handle(v->window);
+    if (!o->given_size && !glfwGetWindowMonitor(handle) &&
+        !glfwGetWindowAttrib(handle, GLFW_ICONIFIED))
+        glfwGetWindowSize(handle, &s.width, &s.height);
+    if (!o->given_projection)
+        s.orthographic = v->input.camera.orthographic;
+    if (v->scheme != o->scheme)
+        snprintf(s.scheme, sizeof s.scheme, "%s", v->scheme->name);
+    s.status = v->panels.open[PANEL_STATUS];
+    s.view = v->view;
+    if (!settings_equal(&s, &o->settings) && !settings_write(&s, &err))
+        fprintf(stderr, "hcsg-view: %s\n", err.text);
+}
+
 bool viewer_run(const struct viewer_options *options, bool *ok, struct error *err)
 {
-    struct viewer v = {
-        .options = options, .input.camera = options->camera, .panels.open[PANEL_STATUS] = true};
+    struct viewer v = {.options = options, .input.camera = options->camera};
     struct loader_options loading = {.path = options->path,
                                      .openscad = options->openscad,
                                      .epsilon = options->epsilon,
                                      .import_folders = options->import_folders,
                                      .import_folder_count = options->import_folder_count,
-                                     .scheme = options->scheme,
                                      .watch = options->watch,
                                      .woken = wake};
     v.framed = options->fixed_camera;
+    v.scheme = options->scheme;
+    v.view = options->settings.view;
+    v.panels.open[PANEL_STATUS] = options->settings.status;
     struct error why;
     static const struct device_host host = {.say = say, .open_context = window_open_context};
     struct device *device = device_choose(options->device, &host, &why);
@@ -458,8 +302,9 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
         input_attach(&v.input, window_handle(v.window));
         gui_start(window_handle(v.window));
         show_title(&v);
-        repaint(&v);
+        viewer_repaint(&v);
         run(&v);
+        remember(&v);
     }
     *ok = v.loaded || options->watch;
     glfwHideWindow(window_handle(v.window)); // the threads may still have something to end

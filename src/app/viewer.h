@@ -1,5 +1,6 @@
 // viewer.h - hcsg-view: one window that shows one file.
 #pragma once
+#include "app/settings.h"
 #include "base/error.h"
 #include "render/camera.h"
 #include "render/choose.h"
@@ -20,6 +21,8 @@ struct viewer_options {
     uint32_t threads;
     size_t memory; // of struct render_settings
     int width, height;
+    struct settings settings;          // as they were remembered
+    bool given_size, given_projection; // by the command line, not from there
     bool watch, stats;
 };
 

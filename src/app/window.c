@@ -17,6 +17,7 @@ struct window {
     GLuint texture;
     int width, height; // of the picture; 0: nothing to show
     int for_width, for_height;
+    int before[4]; // place and size before the full screen
 };
 
 static const char vertex_source[] =
@@ -148,6 +149,48 @@ void window_delete(struct window *w)
 struct GLFWwindow *window_handle(struct window *w)
 {
     return w->handle;
+}
+
+void window_set_background(struct window *w, struct rgb background)
+{
+    w->background = background;
+}
+
+// The screen that most of the window is on.
+static GLFWmonitor *screen_of(const int place[4], const GLFWvidmode **mode)
+{
+    int count;
+    long best = -1;
+    GLFWmonitor *const *monitors = glfwGetMonitors(&count), *found = NULL;
+    for (int i = 0; i < count; i++) {
+        int x, y;
+        glfwGetMonitorPos(monitors[i], &x, &y);
+        const GLFWvidmode *m = glfwGetVideoMode(monitors[i]);
+        double width = fmin(place[0] + place[2], x + m->width) - fmax(place[0], x);
+        double height = fmin(place[1] + place[3], y + m->height) - fmax(place[1], y);
+        long common = (long)(fmax(width, 0) * fmax(height, 0));
+        if (common > best) {
+            best = common;
+            found = monitors[i];
+            *mode = m;
+        }
+    }
+    return found;
+}
+
+void window_switch_full_screen(struct window *w)
+{
+    int *b = w->before;
+    if (glfwGetWindowMonitor(w->handle)) {
+        glfwSetWindowMonitor(w->handle, NULL, b[0], b[1], b[2], b[3], GLFW_DONT_CARE);
+        return;
+    }
+    glfwGetWindowPos(w->handle, &b[0], &b[1]);
+    glfwGetWindowSize(w->handle, &b[2], &b[3]);
+    const GLFWvidmode *mode;
+    GLFWmonitor *screen = screen_of(b, &mode);
+    if (screen)
+        glfwSetWindowMonitor(w->handle, screen, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
 void window_set_picture(struct window *w, const uint8_t *rgb, int width, int height, int for_width,

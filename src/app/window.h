@@ -20,6 +20,9 @@ void window_close_all(void); // when no window is used any more
 
 struct GLFWwindow *window_handle(struct window *w);
 
+void window_set_background(struct window *w, struct rgb background);
+void window_switch_full_screen(struct window *w);
+
 // What shows from the next window_paint on, in place of so many pixels of the window.
 void window_set_picture(struct window *w, const uint8_t *rgb, int width, int height, int for_width,
                         int for_height);

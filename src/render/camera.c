@@ -130,6 +130,41 @@ void camera_print(const struct camera *c, char text[CAMERA_TEXT])
     }
 }
 
+void camera_print_options(const struct camera *c, char *text, size_t size)
+{
+    char numbers[CAMERA_TEXT];
+    camera_print(c, numbers);
+    snprintf(text, size, "--camera=%s%s", numbers, c->orthographic ? " --projection=o" : "");
+}
+
+// The word behind `option`, or nothing.
+static bool find_value(const char *text, const char *option, char *out, size_t size)
+{
+    const char *found = strstr(text, option);
+    if (!found)
+        return false;
+    found += strlen(option);
+    found += strspn(found, "= \t\"'");
+    snprintf(out, size, "%.*s", (int)strcspn(found, " \t\r\n\"'"), found);
+    return true;
+}
+
+bool camera_parse_options(struct camera *out, const char *text, struct error *err)
+{
+    char numbers[300], projection[20];
+    struct camera c = *out;
+    if (!find_value(text, "--camera", numbers, sizeof numbers))
+        find_value(text, "", numbers, sizeof numbers);
+    if (!camera_parse(&c, numbers, err))
+        return false;
+    c.orthographic = false;
+    if (find_value(text, "--projection", projection, sizeof projection) &&
+        !camera_parse_projection(&c, projection, err))
+        return false;
+    *out = c;
+    return true;
+}
+
 static bool box_is_usable(struct box b)
 {
     return !box_is_empty(b) && isfinite(vec3_length(vec3_sub(b.max, b.min))) &&

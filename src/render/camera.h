@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "render/rays.h"
 
+#include <stddef.h>
+
 // The terms of --camera and of $vpt, $vpr, $vpd, $vpf. Rotation 0,0,0 looks straight down, x to the
 // right; the eye is `distance` away from `centre`.
 struct camera {
@@ -21,6 +23,11 @@ bool camera_parse_projection(struct camera *out, const char *text, struct error 
 // Writes the form of seven numbers, as short as reads back the same, into `text`.
 enum { CAMERA_TEXT = 7 * 26 };
 void camera_print(const struct camera *c, char text[CAMERA_TEXT]);
+
+// "--camera=... --projection=o", as hcsg-render takes them.
+void camera_print_options(const struct camera *c, char *text, size_t size);
+// Reads that, or the numbers alone, with anything around it.
+bool camera_parse_options(struct camera *out, const char *text, struct error *err);
 
 // Turns the view towards the centre of the box.
 void camera_autocenter(struct camera *c, struct box scene);

@@ -9,10 +9,12 @@ pasted() { timeout 5 xclip -o -selection clipboard; }
 # An openscad that exports what the design says, after a while where it says so.
 cat > played << 'END'
 #!/bin/sh
-grep -q sleep "$5" && sleep 30
-grep "^//" "$5" | cut -c 3- >&2
-grep -v "^//" "$5" > "$2"
-printf '%s: \\\n\t%s\n' "$2" "$5" > "$4"
+echo "$@" >> called
+for design; do :; done # the last argument
+grep -q sleep "$design" && sleep 30
+grep "^//" "$design" | cut -c 3- >&2
+grep -v "^//" "$design" > "$2"
+printf '%s: \\\n\t%s\n' "$2" "$design" > "$4"
 END
 chmod +x played
 
@@ -74,6 +76,66 @@ panels)
     xdotool key i; shot back; same first back
     xdotool key Left key Left key Up; shot turned; differ first turned
     quit
+    ;;
+show)
+    box 20 > a.scad
+    start --openscad ./played a.scad
+    wait_for out "load 1:"; xdotool key i; shot first
+    for key in e a x; do # each shows something, and goes again
+        xdotool key $key; shot with_$key; differ first with_$key
+        xdotool key $key; shot without_$key; same first without_$key
+    done
+    xdotool key s; shot scales; differ with_a scales # brings the axes
+    xdotool key e key x key c; wait_for out "^--camera="; shot all
+    camera=$(grep "^--camera=" out | tail -1)
+    # As hcsg-render draws it.
+    expected() {
+        "${program%view}render" --openscad ./played --imgsize=640,480 "$camera" "$@" -o expected.png a.scad 2> /dev/null ||
+            fail "no picture to compare with"
+    }
+    expected --view=axes,scales,edges,crosshairs
+    xdotool key i key i; shot all # without a note
+    same all expected 640x480+0+0
+    xdotool key F6; wait_for out "load 2:"; grep -q -e --render=force called || fail "openscad does not render"
+    shot geometry
+    expected --render --view=axes,scales,edges,crosshairs; same geometry expected 640x480+0+0
+    xdotool key F5; wait_for out "load 3:"; shot preview; same all preview
+    xdotool key Left key o; shot turned; differ all turned
+    xdotool key ctrl+v; shot pasted; same all pasted
+    xdotool key k; shot metallic
+    expected --colorscheme=Metallic --view=axes,scales,edges,crosshairs
+    same metallic expected 640x480+0+0
+    xdotool key f; shot full; xdotool key f; shot window; same metallic window
+    quit
+    ;;
+settings)
+    box 20 > a.csg
+    start a.csg
+    wait_for out "load 1:"; shot first
+    xdotool key o key a key k key i; shot chosen
+    quit
+    grep -q '"scheme":.*"Metallic"' config/hcsg/view.json || fail "no scheme in the settings"
+    start a.csg
+    wait_for out "load 1:"; shot again; same chosen again 640x480+0+0
+    xdotool key o; shot perspective; differ again perspective
+    quit
+    "$program" --stats --projection=o a.csg > out 2> err & # in the size of before
+    pid=$!
+    wait_for out "load 1:"; wait_for out "^frame 1024x768 1/1"
+    quit
+    start --colorscheme=Cornfield --projection=p a.csg # not remembered
+    wait_for out "load 1:"; quit
+    grep -q '"scheme":.*"Metallic"' config/hcsg/view.json || fail "the command line is remembered"
+    for broken in '{"axes":' '[]' '' '{"axes": 3, "width": -1, "scheme": [], "height": 1e300}'; do
+        echo "$broken" > config/hcsg/view.json
+        start a.csg
+        wait_for out "load 1:"; shot broken; same first broken
+        quit
+        case $broken in *3*) ;; *) grep -q "view.json: the settings are" err || fail "nothing said of '$broken'" ;; esac
+    done
+    chmod 0 config/hcsg; start a.csg; wait_for out "load 1:"; xdotool key a; quit; chmod 700 config/hcsg
+    rm -r config; : > config; start a.csg; wait_for out "load 1:"; xdotool key a; quit
+    grep -q "config/hcsg" err || fail "nothing said about settings that cannot be written"
     ;;
 *)
     echo "no case $case"

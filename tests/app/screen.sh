@@ -10,6 +10,7 @@ fi
 
 work=$(mktemp -d)
 cd "$work" || exit 1
+export XDG_CONFIG_HOME=$work/config # no settings but those of the test
 pid=
 trap '[ -n "$pid" ] && kill -9 $pid 2> /dev/null; rm -rf "$work"' EXIT
 
@@ -36,10 +37,10 @@ wait_for() {
     done
     fail "'$2' did not come"
 }
-# shot NAME: the screen, as soon as nothing was drawn for a while.
+# shot NAME: the screen, as soon as nothing was drawn for a while after a picture in full resolution.
 shot() {
     local before=
-    while [ "$before" != "$(wc -l < out)" ]; do
+    while [ "$before" != "$(wc -l < out)" ] || grep ^frame out | tail -1 | grep -qv " 1/1:"; do
         before=$(wc -l < out)
         sleep 0.4
     done

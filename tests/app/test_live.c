@@ -76,12 +76,8 @@ static void open_window(struct window *w, const char *text)
     pthread_mutex_init(&w->mutex, NULL);
     pthread_cond_init(&w->news, NULL);
     save(w, text);
-    struct loader_options options = {.path = w->path,
-                                     .epsilon = -1,
-                                     .scheme = scheme_list(&(uint32_t){0}),
-                                     .watch = true,
-                                     .woken = woken,
-                                     .context = w};
+    struct loader_options options = {
+        .path = w->path, .epsilon = -1, .watch = true, .woken = woken, .context = w};
     w->loader = loader_start(&options, &err);
     assert_non_null(w->loader);
 }

@@ -45,7 +45,7 @@ set(harfbuzz_header "^(hb|hb-ft)\\.h")
 set(harfbuzz_home "^type/")
 
 set(cjson_header "^cjson/")
-set(cjson_home "^(command/|customizer/|render/scheme_file)")
+set(cjson_home "^(app/settings|command/|customizer/|render/scheme_file)")
 
 # The engine below these leaves the process alone: it returns errors, and starts nothing.
 set(engine "^(base|csg|geom|hcsg|io|type|model|edit|render|slice)/")

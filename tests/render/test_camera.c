@@ -157,6 +157,28 @@ static void prints_what_it_reads(void **state)
     assert_true(camera_parse(&d, text, &err) && d.distance == -huge);
 }
 
+static void options_come_back(void **state)
+{
+    (void)state;
+    struct camera c = CAMERA_DEFAULTS, back = CAMERA_DEFAULTS;
+    char text[300];
+    struct error err;
+    c.distance = 77;
+    c.orthographic = true;
+    camera_print_options(&c, text, sizeof text);
+    assert_string_equal(text, "--camera=0,0,0,55,0,25,77 --projection=o");
+    assert_true(camera_parse_options(&back, text, &err));
+    assert_true(back.orthographic && back.distance == 77);
+    assert_true(camera_parse_options(&back, "openscad --camera 1,2,3,4,5,6,7 -o x.png", &err));
+    assert_true(!back.orthographic && back.centre.y == 2 && back.distance == 7);
+    assert_true(camera_parse_options(&back, "  0,0,0,55,0,25,140\n", &err));
+    assert_true(back.distance == 140);
+    assert_false(camera_parse_options(&back, "", &err));
+    assert_false(camera_parse_options(&back, "cube(10);", &err));
+    assert_false(camera_parse_options(&back, "--camera=1,2,3,4,5,6,7 --projection=x", &err));
+    assert_true(back.distance == 140);
+}
+
 static void empty_scene_takes_the_defaults(void **state)
 {
     (void)state;
@@ -244,6 +266,7 @@ int main(void)
         cmocka_unit_test(parses_both_forms),
         cmocka_unit_test(refuses_other_texts),
         cmocka_unit_test(prints_what_it_reads),
+        cmocka_unit_test(options_come_back),
         cmocka_unit_test(empty_scene_takes_the_defaults),
         cmocka_unit_test(viewall_alone_keeps_the_centre),
         cmocka_unit_test(pan_follows_the_pointer),
