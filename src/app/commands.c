@@ -137,6 +137,9 @@ static void obey(struct viewer *v, enum action action)
     case ACTION_STATUS:
         open[PANEL_STATUS] = !open[PANEL_STATUS];
         break;
+    case ACTION_CUSTOMIZER:
+        open[PANEL_CUSTOMIZER] = !open[PANEL_CUSTOMIZER];
+        break;
     case ACTION_QUIT:
         glfwSetWindowShouldClose(window_handle(v->window), GLFW_TRUE);
         break;

@@ -273,6 +273,64 @@ void gui_group_end(void)
     ImGui::EndGroup();
 }
 
+bool gui_check(const char *label, bool *value)
+{
+    return ImGui::Checkbox(label, value);
+}
+
+bool gui_number(const char *label, double *value, double step)
+{
+    return ImGui::InputDouble(label, value, step, 10 * step, "%.10g");
+}
+
+bool gui_slider(const char *label, double *value, double min, double max)
+{
+    return ImGui::SliderScalar(label, ImGuiDataType_Double, value, &min, &max, "%.10g");
+}
+
+bool gui_input(const char *label, const char *hint, char *text, size_t size)
+{
+    return ImGui::InputTextWithHint(label, hint, text, size);
+}
+
+bool gui_button(const char *label)
+{
+    return ImGui::Button(label);
+}
+
+bool gui_small_button(const char *label)
+{
+    return ImGui::SmallButton(label);
+}
+
+bool gui_section(const char *label)
+{
+    return ImGui::CollapsingHeader(label, ImGuiTreeNodeFlags_DefaultOpen);
+}
+
+void gui_fill_width(float but)
+{
+    ImGui::SetNextItemWidth(but > 0 ? -but : -1);
+}
+
+bool gui_choices_begin(const char *label, const char *shown)
+{
+    return ImGui::BeginCombo(label, shown, ImGuiComboFlags_HeightLarge);
+}
+
+bool gui_choice(const char *label, bool chosen)
+{
+    bool taken = ImGui::Selectable(label, chosen);
+    if (chosen && ImGui::IsWindowAppearing())
+        ImGui::SetScrollHereY();
+    return taken && !chosen;
+}
+
+void gui_choices_end(void)
+{
+    ImGui::EndCombo();
+}
+
 void gui_copy(const char *utf8)
 {
     ImGui::SetClipboardText(utf8);

@@ -3,6 +3,7 @@
 // the window, from its upper left; names are unique within a window.
 #pragma once
 #include <stdbool.h>
+#include <stddef.h>
 
 struct GLFWwindow;
 
@@ -53,6 +54,20 @@ void gui_scope_end(void);
 // What stands between counts as one, of which others can stand beside.
 void gui_group_begin(void);
 void gui_group_end(void);
+
+// Controls say what they are named for after "##" is not shown; true when the value was changed.
+bool gui_check(const char *label, bool *value);
+bool gui_number(const char *label, double *value, double step); // step 0: without buttons
+bool gui_slider(const char *label, double *value, double min, double max);
+bool gui_input(const char *label, const char *hint, char *text, size_t size);
+bool gui_button(const char *label);
+bool gui_small_button(const char *label); // as high as a text
+bool gui_section(const char *label);      // open at first; draw what it holds when true
+void gui_fill_width(float but);           // the next control takes the rest of the row, but this
+// Call gui_choice for each while true, then the end.
+bool gui_choices_begin(const char *label, const char *shown);
+bool gui_choice(const char *label, bool chosen); // true when it is taken now
+void gui_choices_end(void);
 
 void gui_copy(const char *utf8);
 const char *gui_pasted(void); // "" for none; good until the next call

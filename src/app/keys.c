@@ -44,6 +44,7 @@ const struct key_row key_rows[] = {
     {NULL, "Ctrl+V", "paste a camera", ACTION_PASTE_CAMERA},
     {"Window", "h, ?, F1", "this sheet", ACTION_HELP},
     {NULL, "m", "messages", ACTION_CONSOLE},
+    {NULL, "u", "customizer", ACTION_CUSTOMIZER},
     {NULL, "i", "status line", ACTION_STATUS},
     {NULL, "f, F11", "full screen", ACTION_FULL_SCREEN},
     {NULL, "q, Ctrl+Q", "quit", ACTION_QUIT},

@@ -2,6 +2,7 @@
 #include "app/loader.h"
 
 #include "app/build.h"
+#include "app/defined.h"
 #include "app/watch.h"
 #include "base/clock.h"
 #include "base/file.h"
@@ -20,6 +21,8 @@
 // A file that does not parse, is empty or is gone may be half saved: it is tried again for a while
 // before anything is said.
 enum { RETRY_FIRST_MS = 10, RETRY_MOST_MS = 80, PATIENCE_MS = 250 };
+// Exports longer than this are ended when a value has changed.
+enum { FOLLOWED_SECONDS = 1 };
 
 struct loader {
     struct loader_options options;
@@ -35,20 +38,23 @@ struct loader {
     uint32_t file_count, file_capacity;
     struct build *build;
     uint32_t loads;
-    double noticed;        // of the load under way
-    double failed;         // `noticed` of the newest that failed
-    double exporting;      // since when openscad runs, or ran last
-    double building;       // since when a model is made; 0: none is
-    uint64_t retry_ms;     // before the next try
-    bool patient;          // failures may pass
-    bool loading;          // what was saved is being made into a model
-    struct source *source; // of the newest model; held
+    double noticed;         // of the load under way
+    double failed;          // `noticed` of the newest that failed
+    double exporting;       // since when openscad runs, or ran last
+    double building;        // since when a model is made; 0: none is
+    uint64_t retry_ms;      // before the next try
+    bool patient;           // failures may pass
+    bool loading;           // what was saved is being made into a model
+    struct source *source;  // of the newest model; held
+    struct defined defined; // the parameters of a .scad
+    bool again;             // values have changed since openscad began
     enum model_mode mode;
 
     uv_mutex_t mutex; // guards what follows
     struct loaded *retired;
     struct loader_news news;
-    struct build_task edit; // asked for; without a source: none
+    struct build_task edit;       // asked for; without a source: none
+    struct parameter_texts texts; // asked for; without items: none
     bool fresh, stopping, reload, cancel;
     enum model_mode wanted; // the mode from the next load on
 };
@@ -197,6 +203,8 @@ static void on_built(void *context, struct build_task *task)
     publish(l, s, edited || l->failed > s->times.noticed ? NULL : &task->report, false);
 }
 
+static void load(struct loader *l, double noticed);
+
 static void on_exported(void *context, struct scad_result *result, const struct error *err)
 {
     struct loader *l = context;
@@ -221,25 +229,48 @@ static void on_exported(void *context, struct scad_result *result, const struct 
     } else {
         fail(l, &task.report);
     }
+    if (!err)
+        defined_exported(&l->defined);
     build_task_free(&task);
     scad_result_free(result);
+    if (l->again)
+        load(l, clock_seconds());
+}
+
+static void start_openscad(struct loader *l)
+{
+    struct parameters *parameters = defined_read(&l->defined, l->options.path);
+    uint32_t count;
+    char **arguments = defined_arguments(&l->defined, &count);
+    // Without a value the option would take the file for one.
+    if (l->mode == MODEL_RENDER)
+        arguments[count++] = mem_strdup("--render=force");
+    const struct scad_options options = {.program = l->options.openscad,
+                                         .arguments = (const char *const *)arguments,
+                                         .argument_count = count};
+    l->exporting = clock_seconds();
+    l->job = scad_start(&l->loop, l->options.path, &options, on_exported, l);
+    for (uint32_t i = 0; i < count; i++)
+        free(arguments[i]);
+    free(arguments);
+    if (parameters) {
+        uv_mutex_lock(&l->mutex);
+        struct parameters *unseen = l->news.parameters;
+        l->news.parameters = parameters;
+        uv_mutex_unlock(&l->mutex);
+        parameters_delete(unseen);
+    }
+    publish(l, NULL, NULL, false);
 }
 
 static void begin(struct loader *l)
 {
-    // Without a value the option would take the file for one.
-    static const char *const render[] = {"--render=force"};
-    const struct scad_options options = {.program = l->options.openscad,
-                                         .arguments = render,
-                                         .argument_count = l->mode == MODEL_RENDER};
     struct build_task task = {
         .name = mem_strdup(l->options.path), .mode = l->mode, .times.noticed = l->noticed};
     if (!l->is_scad) {
         ask_build(l, &task);
     } else if (access(task.name, F_OK) == 0) {
-        l->exporting = clock_seconds();
-        l->job = scad_start(&l->loop, l->options.path, &options, on_exported, l);
-        publish(l, NULL, NULL, false);
+        start_openscad(l);
     } else if (!try_again(l)) {
         struct error err;
         error_set(&err, "%s: %s", task.name, strerror(errno));
@@ -259,6 +290,7 @@ static void load(struct loader *l, double noticed)
 {
     l->noticed = noticed;
     l->retry_ms = RETRY_FIRST_MS;
+    l->again = false;
     uv_timer_stop(&l->retry);
     if (l->job)
         scad_cancel(l->job);
@@ -274,7 +306,6 @@ static void give_up(struct loader *l)
     l->job = NULL;
     build_cancel(l->build);
     l->building = 0;
-    l->loading = false;
     l->loading = false;
     publish(l, NULL, NULL, false);
 }
@@ -296,6 +327,17 @@ static void on_signal(uv_signal_t *handle, int number)
     l->options.woken(l->options.context);
 }
 
+// An export under way is let finish, or nothing would show while a slider moves; a long one is not.
+static void define(struct loader *l, const struct parameter_texts *texts)
+{
+    defined_set(&l->defined, texts);
+    l->patient = false;
+    if (l->job && clock_seconds() - l->exporting < FOLLOWED_SECONDS)
+        l->again = true;
+    else
+        load(l, clock_seconds());
+}
+
 static void on_wake(uv_async_t *handle)
 {
     struct loader *l = handle->data;
@@ -305,12 +347,15 @@ static void on_wake(uv_async_t *handle)
     bool reload = l->reload, cancel = l->cancel, stopping = l->stopping;
     l->retired = NULL;
     l->edit = (struct build_task){0};
+    struct parameter_texts texts = l->texts;
+    l->texts = (struct parameter_texts){0};
     l->mode = l->wanted;
     l->reload = l->cancel = false;
     uv_mutex_unlock(&l->mutex);
     build_retire(l->build, retired);
     if (stopping) {
         build_task_free(&edit);
+        parameter_texts_free(&texts);
         if (l->job)
             scad_cancel(l->job);
         watch_delete(l->watch);
@@ -323,6 +368,9 @@ static void on_wake(uv_async_t *handle)
     }
     if (cancel)
         give_up(l);
+    if (texts.count && l->is_scad)
+        define(l, &texts);
+    parameter_texts_free(&texts);
     if (reload) {
         l->patient = false;
         load(l, clock_seconds());
@@ -399,6 +447,7 @@ bool loader_take(struct loader *l, struct loader_news *out)
         *out = l->news;
         out->report = report_copy(&l->news.report);
         l->news.loaded = NULL;
+        l->news.parameters = NULL;
         l->fresh = false;
     }
     uv_mutex_unlock(&l->mutex);
@@ -416,6 +465,17 @@ static void set_flag(struct loader *l, bool *flag)
 void loader_reload(struct loader *l)
 {
     set_flag(l, &l->reload);
+}
+
+void loader_define(struct loader *l, const struct parameters *p)
+{
+    struct parameter_texts texts = parameter_texts_of(p), replaced;
+    uv_mutex_lock(&l->mutex);
+    replaced = l->texts;
+    l->texts = texts;
+    uv_mutex_unlock(&l->mutex);
+    uv_async_send(&l->wake);
+    parameter_texts_free(&replaced);
 }
 
 void loader_set_mode(struct loader *l, enum model_mode mode)
@@ -458,5 +518,8 @@ void loader_stop(struct loader *l)
     build_task_free(&l->edit);
     uv_mutex_destroy(&l->mutex);
     report_free(&l->news.report);
+    parameters_delete(l->news.parameters);
+    parameter_texts_free(&l->texts);
+    defined_free(&l->defined);
     free(l);
 }

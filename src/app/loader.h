@@ -1,6 +1,7 @@
 // loader.h - follows the file and hands over the models made of it, on a thread of its own.
 #pragma once
 #include "app/report.h"
+#include "customizer/parameters.h"
 #include "edit/edit.h"
 #include "model/model.h"
 
@@ -46,6 +47,9 @@ enum load_phase { LOAD_NONE, LOAD_EXPORT, LOAD_BUILD };
 struct loader_news {
     struct loaded *loaded; // newer than the last one taken, now held by the taker; or NULL
     struct report report;  // all there is to say about the file as it is now; owned by the taker
+    // Of the .scad, with the values that hold, from before its export; new since the last one
+    // taken, or NULL; to be freed with free after its content.
+    struct parameters *parameters;
     bool failed;           // the report says why there is no newer model
     enum load_phase phase; // what goes on: openscad runs, or a model is made
     double since;          // clock_seconds
@@ -60,6 +64,9 @@ void loader_reload(struct loader *l); // as if the file had been saved
 // faster than models some are left out, never the last. One of an older source is not shown any
 // more: a newer file is on its way, or there.
 void loader_edit(struct loader *l, const struct edit *e);
+// The parameters have these values from now on. Exports that change nothing but values end before
+// the next one begins, if they are short: a slider is followed.
+void loader_define(struct loader *l, const struct parameters *p);
 // Loads with another mode; MODEL_RENDER also makes openscad's $preview false.
 void loader_set_mode(struct loader *l, enum model_mode mode);
 void loader_cancel(struct loader *l); // gives up what goes on, until the file is saved again

@@ -15,6 +15,8 @@ static struct gui_box free_box(const struct panels *p)
     struct gui_box box = gui_window_size();
     if (p->open[PANEL_STATUS])
         box.height = fmaxf(box.height - gui_strip(), 1);
+    if (p->open[PANEL_CUSTOMIZER])
+        box.width -= fminf(22 * gui_em(), box.width / 2);
     return box;
 }
 
@@ -27,15 +29,22 @@ struct view_area panels_area(const struct panels *p)
                               (int)lroundf(box.height * density)};
 }
 
-void panels_draw(struct panels *p, const struct panel_facts *facts)
+bool panels_draw(struct panels *p, const struct panel_facts *facts, struct parameters *parameters)
 {
     struct gui_box all = gui_window_size(), box = free_box(p);
+    bool changed = false;
     if (p->open[PANEL_STATUS])
         panel_status_draw(facts, &(struct gui_box){0, box.height, all.width, gui_strip()});
     if (p->open[PANEL_CONSOLE])
         panel_console_draw(facts, &box, &p->open[PANEL_CONSOLE]);
     if (p->open[PANEL_HELP])
         panel_help_draw(&box, &p->open[PANEL_HELP]);
+    if (p->open[PANEL_CUSTOMIZER])
+        changed = panel_customizer_draw(
+            &p->customizer, parameters,
+            &(struct gui_box){box.width, 0, all.width - box.width, box.height},
+            &p->open[PANEL_CUSTOMIZER]);
+    return changed;
 }
 
 void panels_take_report(struct panels *p, const struct panel_facts *facts)

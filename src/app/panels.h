@@ -1,11 +1,12 @@
 // panels.h - what stands around the picture and over it: where each panel is, and which are open.
 #pragma once
+#include "app/panel_customizer.h"
 #include "app/report.h"
 #include "app/window.h"
 
 #include <stdint.h>
 
-enum panel { PANEL_STATUS, PANEL_CONSOLE, PANEL_HELP, PANELS };
+enum panel { PANEL_STATUS, PANEL_CONSOLE, PANEL_HELP, PANEL_CUSTOMIZER, PANELS };
 
 // What there is to tell, gathered by the viewer for one frame; all borrowed.
 struct panel_facts {
@@ -22,12 +23,13 @@ struct panel_facts {
 
 struct panels {
     bool open[PANELS];
+    struct panel_customizer customizer;
     bool console_by_itself; // an error has opened it: what mends the error closes it
 };
 
 // Where the picture stands beside what is open.
 struct view_area panels_area(const struct panels *p);
-// Between gui_begin and gui_end. May close panels.
-void panels_draw(struct panels *p, const struct panel_facts *facts);
+// Between gui_begin and gui_end. May close panels, and change values of parameters: then true.
+bool panels_draw(struct panels *p, const struct panel_facts *facts, struct parameters *parameters);
 // After a load.
 void panels_take_report(struct panels *p, const struct panel_facts *facts);

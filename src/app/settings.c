@@ -19,6 +19,7 @@ static const struct {
 } flags[] = {
     {"orthographic", offsetof(struct settings, orthographic)},
     {"status line", offsetof(struct settings, status)},
+    {"customizer", offsetof(struct settings, customizer)},
     {"axes", offsetof(struct settings, view.axes)},
     {"scales", offsetof(struct settings, view.scales)},
     {"crosshairs", offsetof(struct settings, view.crosshairs)},

@@ -6,6 +6,7 @@ struct settings {
     int width, height; // of the window
     bool orthographic;
     bool status;     // the status line shows
+    bool customizer; // its panel is open
     char scheme[64]; // name of the colour scheme
     struct drawing_view view;
 };

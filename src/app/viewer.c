@@ -80,7 +80,8 @@ static void paint(struct viewer *v)
 {
     const struct panel_facts facts = gather(v);
     gui_begin();
-    panels_draw(&v->panels, &facts);
+    if (panels_draw(&v->panels, &facts, &v->parameters))
+        loader_define(v->loader, &v->parameters);
     const struct view_area area = panels_area(&v->panels), *old = &v->input.area;
     if (area.x != old->x || area.y != old->y || area.width != old->width ||
         area.height != old->height)
@@ -107,6 +108,13 @@ static void take_news(struct viewer *v)
         }
         v->input.moved = true;
         v->refine_at = 0;
+    }
+    if (news.parameters) {
+        parameters_carry(news.parameters, &v->parameters);
+        parameters_free(&v->parameters);
+        v->parameters = *news.parameters;
+        free(news.parameters);
+        viewer_repaint(v);
     }
     bool busy = news.phase != LOAD_NONE;
     report_free(&v->report);
@@ -263,6 +271,7 @@ static void remember(const struct viewer *v)
     if (v->scheme != o->scheme)
         snprintf(s.scheme, sizeof s.scheme, "%s", v->scheme->name);
     s.status = v->panels.open[PANEL_STATUS];
+    s.customizer = v->panels.open[PANEL_CUSTOMIZER];
     s.view = v->view;
     if (!settings_equal(&s, &o->settings) && !settings_write(&s, &err))
         fprintf(stderr, "hcsg-view: %s\n", err.text);
@@ -282,6 +291,7 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
     v.scheme = options->scheme;
     v.view = options->settings.view;
     v.panels.open[PANEL_STATUS] = options->settings.status;
+    v.panels.open[PANEL_CUSTOMIZER] = options->settings.customizer;
     struct error why;
     static const struct device_host host = {.say = say, .open_context = window_open_context};
     struct device *device = device_choose(options->device, &host, &why);
@@ -314,6 +324,7 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
     bool started = v.loader != NULL;
     loader_stop(v.loader);
     report_free(&v.report);
+    parameters_free(&v.parameters);
     gui_stop();
     window_delete(v.window);
     window_close_all();

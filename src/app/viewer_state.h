@@ -34,6 +34,7 @@ struct viewer {
     enum load_phase phase;
     double phase_since;
     struct panels panels;
+    struct parameters parameters; // of the file, as the panel has them
     const struct scheme *scheme;
     struct drawing_view view;
     enum model_mode mode;

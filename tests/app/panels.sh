@@ -137,6 +137,39 @@ settings)
     rm -r config; : > config; start a.csg; wait_for out "load 1:"; xdotool key a; quit
     grep -q "config/hcsg" err || fail "nothing said about settings that cannot be written"
     ;;
+customizer)
+    command -v openscad > /dev/null || { echo "SKIP: no openscad"; exit 77; }
+    design() { # LENGTH
+        echo "length = $1; // [10:5:50]"
+        echo 'post = true;'
+        echo 'echo(length = length, post = post); cube([length, 10, 10]); if (post) cube([3, 4, 15]);'
+    }
+    click() { xdotool mousemove $1 $2 sleep 0.3 click 1 sleep 0.3; }
+    design 20 > a.scad
+    start a.scad
+    wait_for err "length = 20, post = true"; shot first
+    xdotool key u; shot opened; differ first opened; differ first opened 300x450+0+0 # moves aside
+    click 328 192; wait_for err "length = 20, post = false" # the check box
+    shot bare; differ opened bare 300x450+0+0
+    xdotool mousemove 430 145 sleep 0.3 mousedown 1 # the slider
+    for x in $(seq 440 10 560); do xdotool mousemove $x 145 sleep 0.05; done
+    xdotool mouseup 1; shot long; differ bare long 300x450+0+0
+    length=$(grep -o "length = [0-9.]*" err | tail -1); length=${length#* = }
+    [ "$length" -gt 30 ] && [ $((length % 5)) = 0 ] || fail "the slider stops at $length"
+    click 420 39; [ "$(pasted)" = "-D 'length=$length' -D 'post=false'" ] || fail "copied: $(pasted)"
+    click 420 64; xdotool type posq; shot found; differ long found # letters are no commands
+    xdotool key Escape; click 420 64; xdotool key ctrl+a key BackSpace key Escape; shot all
+    { design 20; echo 'cube(1);'; } > a.scad # what was changed stays
+    wait_for out "load [0-9]*:"; shot saved
+    [ "$(tail -1 err)" = "ECHO: length = $length, post = false" ] || fail "after a save: $(tail -1 err)"
+    { echo 'x = ;'; design 20; } > a.scad; wait_for err "Parser error"; shot broken
+    design 20 > a.scad; sleep 1; shot mended; same long mended 300x450+0+0
+    design 25 > a.scad; sleep 1; shot edited # the newer value counts
+    [ "$(tail -1 err)" = "ECHO: length = 25, post = false" ] || fail "after another value: $(tail -1 err)"
+    click 340 39; shot reset
+    [ "$(tail -1 err)" = "ECHO: length = 25, post = true" ] || fail "after the reset: $(tail -1 err)"
+    xdotool key u; quit
+    ;;
 *)
     echo "no case $case"
     exit 1
