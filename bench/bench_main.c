@@ -1,6 +1,7 @@
 // bench_main.c - hcsg-bench: frame times on the scenes of scenes.txt, beside OpenCSG's.
 #include "base/mem.h"
 #include "curves.h"
+#include "discovery.h"
 #include "measure.h"
 #include "program.h"
 #include "report.h"
@@ -12,7 +13,7 @@
 
 static struct {
     const char *list, *scenes, *output, *pictures, *device;
-    bool opencsg, process, unshared, curves, values;
+    bool opencsg, process, unshared, curves, values, discovery;
     uint32_t frames, threads, size;
     double limit;
 } given = {.list = HCSG_BENCH_LIST,
@@ -47,6 +48,10 @@ static const struct option options[] = {
      "write times by the hash and by the array, with values shared and\n"
      "unshared, to --output instead: for bench/plot",
      &given.values, 0, 0},
+    {"discovery", 0, OPTION_FLAG, NULL,
+     "compare how combinations are learned with OpenGL: at once, over\n"
+     "frames, from three sides",
+     &given.discovery, 0, 0},
     {"process", 0, OPTION_FLAG, NULL,
      "the operands are .csg files: time whole runs of hcsg-render and openscad", &given.process, 0,
      0},
@@ -103,7 +108,8 @@ static bool names_are_known(const struct scenes *scenes, char **names, int count
     return true;
 }
 
-static bool bench_scene(FILE *tsv, struct result *r, struct error *err)
+static bool bench_scene(FILE *tsv, struct result *r, struct discovery_result *lesson,
+                        struct error *err)
 {
     char csg[4096], opencsg[4096];
     snprintf(csg, sizeof csg, "%s/%s.csg", given.scenes, r->scene->name);
@@ -123,6 +129,12 @@ static bool bench_scene(FILE *tsv, struct result *r, struct error *err)
     }
     if (given.values)
         return curves_by_values(tsv, r->scene->name, csg, &ours, err);
+    if (given.discovery) {
+        bool learned = discovery_measure(lesson, r->scene, csg, &ours, err);
+        if (learned && tsv)
+            discovery_rows(tsv, lesson);
+        return learned;
+    }
     if (!measure_scene(r, csg, &ours, err))
         return false;
     const struct opponent_options theirs = {.program = opencsg,
@@ -143,20 +155,26 @@ static bool bench_scenes(FILE *tsv, char **names, int count, struct error *err)
     if (!scenes_read(&scenes, given.list, err))
         return false;
     struct result *results = mem_zalloc((scenes.count + 1) * sizeof *results);
+    struct discovery_result *lessons = mem_zalloc((scenes.count + 1) * sizeof *lessons);
     uint32_t done = 0;
     bool ok = names_are_known(&scenes, names, count, err);
     for (uint32_t i = 0; ok && i < scenes.count; i++) {
         if (!is_wanted(scenes.items[i].name, names, count))
             continue;
-        struct result *r = &results[done++];
+        struct result *r = &results[done];
         r->scene = &scenes.items[i];
-        ok = bench_scene(tsv, r, err);
+        ok = bench_scene(tsv, r, &lessons[done++], err);
     }
-    if (ok && !given.curves && !given.values)
+    if (ok && given.discovery)
+        discovery_tables(stdout, lessons, done, given.size);
+    else if (ok && !given.curves && !given.values)
         report_tables(stdout, results, done);
-    for (uint32_t i = 0; i < done; i++)
+    for (uint32_t i = 0; i < done; i++) {
         result_free(&results[i]);
+        discovery_free(&lessons[i]);
+    }
     free(results);
+    free(lessons);
     scenes_free(&scenes);
     return ok;
 }

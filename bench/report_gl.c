@@ -18,6 +18,12 @@ static void kind_rows(FILE *tsv, const char *scene, const char *name, const stru
             samples_least(&k->frames), k->frames.count);
     snprintf(metric, sizeof metric, "gl_%s_fragments", name);
     value(tsv, scene, metric, (double)k->sum.fragments / frames);
+    snprintf(metric, sizeof metric, "gl_%s_waits", name);
+    value(tsv, scene, metric, (double)k->sum.waits.count / frames);
+    snprintf(metric, sizeof metric, "gl_%s_waits_ms", name);
+    value(tsv, scene, metric, k->sum.waits.seconds * 1e3 / frames);
+    snprintf(metric, sizeof metric, "gl_%s_longest_wait_ms", name);
+    value(tsv, scene, metric, k->sum.waits.longest * 1e3);
     for (int i = 0; i < RENDER_PASSES && k->sum.passes[i].name; i++) {
         const struct render_pass *p = &k->sum.passes[i];
         snprintf(metric, sizeof metric, "gl_%s_%s_pass_ms", name, p->name);
@@ -88,6 +94,7 @@ static void kind_columns(FILE *out, const struct gl_kind *k, const struct gl_kin
     fprintf(out, " %.1f (%.1f, %u) | %.1f | %.2f |", samples_median(&k->frames),
             samples_least(&k->frames), k->frames.count, slabs,
             (double)k->sum.fragments / frames / 1e6);
+    fprintf(out, " %.1f (%.2f) |", (double)k->sum.waits.count / frames, k->sum.waits.longest * 1e3);
     if (array->frames.count) {
         parts_of(array, ms);
         fprintf(out, " %.2f | %.1f |\n", ms[WALKS_OF_RAYS], samples_median(&array->frames));
@@ -102,8 +109,8 @@ static void kind_table(FILE *out, const struct result *results, uint32_t count, 
         out,
         "\n### %s on both devices, ms\n\n"
         "| scene | cpu: total | gl: lists | walks | copies | discovery | total, median (min, n) "
-        "| slabs | Mfragments | array: walks | total |\n"
-        "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+        "| slabs | Mfragments | waits (longest) | array: walks | total |\n"
+        "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
         spans ? "Transparent (all intervals)" : "Opaque");
     for (uint32_t i = 0; i < count; i++) {
         const struct result *r = &results[i];
@@ -113,7 +120,7 @@ static void kind_table(FILE *out, const struct result *results, uint32_t count, 
             kind_columns(out, spans ? &r->gl.spans : &r->gl.opaque,
                          spans ? &r->gl.array_spans : &r->gl.array_opaque);
         else
-            fprintf(out, " not measured | | | | | | | | |\n");
+            fprintf(out, " not measured | | | | | | | | | |\n");
     }
 }
 
