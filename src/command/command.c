@@ -2,14 +2,17 @@
 #include "command/command.h"
 
 #include "base/clock.h"
+#include "base/file.h"
 #include "command/animation.h"
 #include "command/build.h"
 #include "command/input.h"
 #include "command/output.h"
+#include "command/parameters.h"
 #include "command/reference.h"
 #include "command/rule.h"
 #include "command/summary.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 int command_fail(const struct error *err, int code)
@@ -177,10 +180,29 @@ static void say(void *context, const char *line)
     fprintf(stderr, "warning: %s\n", line);
 }
 
+// What is known without openscad.
+static int write_parameters(const struct request *r)
+{
+    int code = EXIT_FINE;
+    struct error err;
+    char *json = NULL;
+    if (r->parameter_output_count && !parameters_list(r->input, &json, &err))
+        return command_fail(&err, EXIT_INPUT);
+    for (uint32_t i = 0; i < r->parameter_output_count; i++)
+        if (!file_write(r->parameter_outputs[i], json, strlen(json), &err))
+            code = command_fail(&err, EXIT_OUTPUT);
+    free(json);
+    return code;
+}
+
 int command_run(const struct request *r)
 {
-    int code = EXIT_INPUT;
+    int code = write_parameters(r);
+    bool more = r->output_count || r->summary || r->style.reference || r->rule;
     struct error why;
+    if (code || (r->parameter_output_count && !more))
+        return code;
+    code = EXIT_INPUT;
     static const struct device_host host = {.say = say};
     struct run run = {.device = device_choose(r->device, &host, &why), .began = clock_seconds()};
     if (!run.device)

@@ -14,6 +14,7 @@ static const struct output_format formats[] = {
     {"stl", OUTPUT_GEOMETRY, EXPORT_STL},
     {"off", OUTPUT_GEOMETRY, EXPORT_OFF},
     {"dxf", OUTPUT_GEOMETRY, EXPORT_DXF},
+    {"param", OUTPUT_PARAMETERS, 0},
 };
 
 const struct output_format *output_format_find(const char *name)

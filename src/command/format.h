@@ -10,6 +10,7 @@ enum output_kind {
     OUTPUT_NORMALS,
     OUTPUT_IDS,
     OUTPUT_GEOMETRY,
+    OUTPUT_PARAMETERS, // of the .scad, not of what it makes
 };
 
 struct output_format {

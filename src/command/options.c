@@ -25,10 +25,11 @@ enum options_result given_parse(struct given *out, int argc, char **argv, struct
          "write that file, what it is follows from its extension;\n"
          "- is standard output; may be given several times",
          &out->outputs, 0, 0},
-        {"export-format", 0, OPTION_TEXT, "png|depthmap|pfm|normals|ids|stl|off|dxf",
+        {"export-format", 0, OPTION_TEXT, "png|depthmap|pfm|normals|ids|stl|off|dxf|param",
          "what to write, whatever the extension of FILE says: a picture,\n"
-         "depths as grey (16 bits) or numbers, normals or leaves as colours, or\n"
-         "the vertices of a model that is one object without booleans",
+         "depths as grey (16 bits) or numbers, normals or leaves as colours,\n"
+         "the vertices of a model that is one object without booleans, or the\n"
+         "parameters of a .scad as JSON",
          &out->export_format, 0, 0},
         {"imgsize", 0, OPTION_SIZE, "W,H", "size of the picture in pixels (default 512,512)",
          out->size, 1, SIDE_MOST},

@@ -91,6 +91,8 @@ static bool write_as(enum output_kind kind, enum export_format geometry, const c
         return write_normals(path, d, err);
     case OUTPUT_IDS:
         return write_ids(path, d, err);
+    case OUTPUT_PARAMETERS: // written before anything was drawn
+        return true;
     case OUTPUT_GEOMETRY:
         break;
     }

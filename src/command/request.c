@@ -145,6 +145,14 @@ static bool set_outputs(struct request *out, const struct given *given, struct e
             error_set(err, "%s: cannot write .%s files, only %s", path, extension, names);
             return false;
         }
+        if (format->kind == OUTPUT_PARAMETERS && !out->is_scad) {
+            error_set(err, "%s: only a .scad file has parameters, not %s", path, out->input);
+            return false;
+        }
+        if (format->kind == OUTPUT_PARAMETERS) {
+            out->parameter_outputs[out->parameter_output_count++] = path;
+            continue;
+        }
         bool per_view = out->style.views.count && strstr(path, VIEW_MARK);
         if (out->style.views.count && !per_view && is_map(format->kind)) {
             error_set(err, "%s: %s of several views need a file each: give -o NAME-%s.EXT", path,

@@ -36,6 +36,8 @@ struct request {       // borrows from the command line
     uint32_t passed_count;
     struct output outputs[2 * OPTION_LIST_MOST];
     uint32_t output_count;
+    const char *parameter_outputs[2 * OPTION_LIST_MOST]; // files for OUTPUT_PARAMETERS
+    uint32_t parameter_output_count;
     int width, height;
     struct camera camera;
     bool viewall, autocenter;

@@ -1,4 +1,5 @@
 // json.c - all parameters as JSON, as newer versions of OpenSCAD list them.
+#include "customizer/literal.h"
 #include "customizer/locale.h"
 #include "customizer/parameters.h"
 
@@ -41,9 +42,9 @@ static cJSON *parameter_json(const struct parameter *p)
                                         [PARAMETER_NUMBER] = "number",
                                         [PARAMETER_STRING] = "string",
                                         [PARAMETER_VECTOR] = "number"};
-    bool numeric = p->kind == PARAMETER_NUMBER || p->kind == PARAMETER_VECTOR;
     cJSON *one = cJSON_CreateObject();
-    cJSON_AddStringToObject(one, "caption", p->description);
+    if (*p->description)
+        cJSON_AddStringToObject(one, "caption", p->description);
     cJSON_AddStringToObject(one, "group", p->group);
     cJSON_AddItemToObject(one, "initial", value_json(p));
     if (p->ranged) {
@@ -55,7 +56,7 @@ static cJSON *parameter_json(const struct parameter *p)
     cJSON_AddStringToObject(one, "name", p->name);
     if (p->choice_count)
         cJSON_AddItemToObject(one, "options", choices_json(p));
-    else if (numeric)
+    if (p->ranged)
         cJSON_AddNumberToObject(one, "step", p->step);
     cJSON_AddStringToObject(one, "type", types[p->kind]);
     return one;
@@ -70,8 +71,12 @@ char *parameters_json(const struct parameters *p, const char *title)
         if (!p->items[i].hidden && p->items[i].kind != PARAMETER_SOURCE)
             cJSON_AddItemToArray(list, parameter_json(&p->items[i]));
     cJSON_AddStringToObject(root, "title", title);
-    char *text = cJSON_Print(root);
+    char *printed = cJSON_Print(root);
+    struct words text = {0};
+    words_say(&text, printed);
+    words_say(&text, "\n");
+    cJSON_free(printed);
     cJSON_Delete(root);
     locale_leave(&own);
-    return text;
+    return text.data;
 }

@@ -29,13 +29,6 @@ static double step_of(const double *numbers, uint32_t count)
     return step;
 }
 
-// The largest number of whole steps that is no larger than `max`, but for rounding.
-static double last_step(double min, double max, double step)
-{
-    double steps = floor((max - min) / step + 1e-9), last = min + steps * step;
-    return fabs(last - max) < 1e-9 * step ? max : last;
-}
-
 static void set_range(struct parameter *p, const struct literal *range)
 {
     const struct literal *items = range->items;
@@ -44,10 +37,13 @@ static void set_range(struct parameter *p, const struct literal *range)
     double step = last == 2 ? fabs(items[1].number) : 0;
     p->min = fmin(begin, end);
     p->max = fmax(begin, end);
-    if (step > 0) {
+    for (uint32_t i = 0; i < p->value.count; i++) {
+        p->min = fmin(p->min, p->value.numbers[i]);
+        p->max = fmax(p->max, p->value.numbers[i]);
+    }
+    if (step > 0)
         p->step = step;
-        p->max = last_step(p->min, p->max, step);
-    } else
+    else
         p->step = fmin(p->step, step_of((const double[]){begin, end}, 2));
     p->ranged = p->min < p->max && isfinite(p->max - p->min);
 }
@@ -223,9 +219,13 @@ double parameter_snap(const struct parameter *p, double number)
 {
     if (!p->ranged || isnan(number))
         return number;
+    double range = (p->max - p->min) / p->step, last = floor(range + 1e-9);
     double steps = round((number - p->min) / p->step);
-    double last = round((p->max - p->min) / p->step);
-    return steps <= 0 ? p->min : steps >= last ? p->max : p->min + steps * p->step;
+    if (steps <= 0)
+        return p->min;
+    if (steps < last)
+        return p->min + steps * p->step;
+    return fabs(last - range) < 1e-9 ? p->max : p->min + last * p->step;
 }
 
 void parameters_carry(struct parameters *now, const struct parameters *before)

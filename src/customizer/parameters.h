@@ -40,10 +40,10 @@ struct parameter {
     bool hidden; // [Hidden]: not shown
     bool global; // [Global]: shown with every group
     // Of numbers and vectors. OpenSCAD takes values beyond the range as well, from -D and sets.
-    bool ranged; // from min to max, both included: a slider
+    bool ranged; // a slider from min to max, between which the initial value is
     double min, max;
-    double step;                            // above 0
-    uint32_t length_most;                   // characters of a string; 0: any number
+    double step;          // above 0; where none is given, 1 or that of the last decimal in sight
+    uint32_t length_most; // characters of a string; 0: any number
     const struct parameter_choice *choices; // a drop-down; the initial value is one of them
     uint32_t choice_count;
     struct parameter_value initial; // what the source says
@@ -66,7 +66,8 @@ void parameter_reset(struct parameter *p);
 // The choice that is the value, choice_count when none is.
 uint32_t parameter_choice(const struct parameter *p);
 void parameter_choose(struct parameter *p, uint32_t choice);
-// The nearest number of the range that is whole steps from its begin; without a range the number.
+// The nearest number of the range that is whole steps from its begin, as a slider gives it; without
+// a range the number itself.
 double parameter_snap(const struct parameter *p, double number);
 
 // The value as text, as parameter sets hold it: a string as it is, all else as source. To be freed.

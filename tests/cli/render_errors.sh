@@ -28,7 +28,7 @@ expect 1 'no output; give -o' a.csg
 expect 1 'expected FILE after it' a.csg -o
 expect 1 'unknown option --imagesize; did you mean --imgsize?' --imagesize=3,3 -o out.png a.csg
 expect 1 'unknown option -z' -z -o out.png a.csg
-expect 1 'out.jpg: cannot write .jpg files, only png, depthmap, pfm, normals, ids, stl, off or dxf' -o out.jpg a.csg
+expect 1 'out.jpg: cannot write .jpg files, only png, depthmap, pfm, normals, ids, stl, off, dxf or param' -o out.jpg a.csg
 for size in 0,5 5,0 -1,5 5 5,5,5 a,b '' 1e3,5 40000,1 32768,32768 99999999999999999999,5; do
     expect 1 '--imgsize: expected' "--imgsize=$size" -o out.png a.csg
 done

@@ -196,6 +196,19 @@ expect './gone: no such file' --openscad=./gone a.scad
 echo 'cube(size = [1, 1, 1]);' >a.csg
 expect '--animate: only a .scad file has $t, not a.csg' --animate=2 a.csg
 
+# Parameters are listed without openscad.
+printf '/* [Size] */\n// in mm\nwidth = 5; // [1:10]\nmodule m() { }\n' >list.scad
+"$render" --openscad=/none -o list.param list.scad || fault 'param: failed'
+expected='{"parameters":[{"caption":"in mm","group":"Size","initial":5,"max":10,"min":1,"name":"width",'
+expected=$expected'"step":1,"type":"number"}],"title":"list"}'
+[ "$(tr -d '\t\n' <list.param | sed 's/, "/,"/g')" = "$expected" ] || fault "param: $(cat list.param)"
+"$render" --openscad=/none --export-format=param -o - ./list.scad | cmp -s - list.param || fault 'param: -'
+"$render" --openscad=./fake -o both.param -o both.png list.scad && [ -s both.png ] &&
+    cmp -s both.param list.param || fault 'param: beside a picture'
+expect 'out.param: only a .scad file has parameters, not a.csg' -o out.param a.csg
+expect 'gone.scad: No such file' -o out.param gone.scad
+[ -e out.param ] && fault 'param: written'
+
 # What only a .scad has is told for a .csg, which is drawn all the same.
 echo 'cube(size = [1, 1, 1]);' >a.csg
 "$render" -D x=1 -o out.png a.csg 2>stderr && [ -s out.png ] || fault '-D: a .csg is not drawn'

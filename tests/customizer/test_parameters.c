@@ -113,14 +113,17 @@ static void numbers_have_ranges_and_steps(void **state)
         {"5", "// .5", false, 0, 0, 0.5},
         {"5", "// -1", false, 0, 0, 1},
         {"5", "// [100]", true, 0, 100, 1},
-        {"5", "// [-100]", true, -100, 0, 1},
+        {"-5", "// [-100]", true, -100, 0, 1},
+        {"5", "// [-100]", true, -100, 5, 1},
+        {"[-1, 50]", "// [0:9]", true, -1, 50, 1},
         {"5", "// [1:10]", true, 1, 10, 1},
         {"0.5", "// [0:1]", true, 0, 1, 0.1},
-        {"5", "// [0 : 2 : 9]", true, 0, 8, 2},
+        {"5", "// [0 : 2 : 9]", true, 0, 9, 2},
         {"0.3", "// [0:0.1:1]", true, 0, 1, 0.1},
         {"5", "// [10:-1:0]", true, 0, 10, 1},
-        {"5", "// [3:3]", false, 3, 3, 1},
-        {"5", "// [0:20:10]", false, 0, 0, 20},
+        {"5", "// [3:3]", true, 3, 5, 1},
+        {"3", "// [3:3]", false, 3, 3, 1},
+        {"5", "// [0:20:10]", true, 0, 10, 20},
         {"5", "// [0:0:10]", true, 0, 10, 1},
         {"[1, 2.5]", "// [0:9]", true, 0, 9, 0.1},
         {"[1, 2]", "// [7]", true, 0, 7, 1},
@@ -290,6 +293,13 @@ static void sliders_snap_to_steps(void **state)
     assert_true(parameter_snap(x, 2.3) == 3.5);
     assert_true(parameter_snap(x, 100) == 8.5);
     parameters_free(&p);
+    x = one(&p, "0.3", "// [0:0.1:1]");
+    assert_true(parameter_snap(x, 0.97) == 1);
+    assert_true(parameter_snap(x, 0.33) == 3 * 0.1);
+    parameters_free(&p);
+    x = one(&p, "3", "// [0:20:10]");
+    assert_true(parameter_snap(x, 9) == 0);
+    parameters_free(&p);
     x = one(&p, "3", "");
     assert_true(parameter_snap(x, 2.3) == 2.3);
     parameters_free(&p);
@@ -382,12 +392,12 @@ static void json_is_as_newer_versions_write_it(void **state)
         json,
         "{\"parameters\":[{\"caption\":\"howmany\",\"group\":\"G\",\"initial\":2,\"max\":5,"
         "\"min\":0,\"name\":\"n\",\"step\":1,\"type\":\"number\"},"
-        "{\"caption\":\"\",\"group\":\"G\",\"initial\":\"a\",\"maxLength\":9,\"name\":\"s\","
+        "{\"group\":\"G\",\"initial\":\"a\",\"maxLength\":9,\"name\":\"s\","
         "\"type\":\"string\"},"
-        "{\"caption\":\"\",\"group\":\"G\",\"initial\":\"x\",\"name\":\"c\",\"options\":["
+        "{\"group\":\"G\",\"initial\":\"x\",\"name\":\"c\",\"options\":["
         "{\"name\":\"Ex\",\"value\":\"x\"},{\"name\":\"y\",\"value\":\"y\"}],\"type\":\"string\"},"
-        "{\"caption\":\"\",\"group\":\"G\",\"initial\":true,\"name\":\"b\",\"type\":\"boolean\"},"
-        "{\"caption\":\"\",\"group\":\"G\",\"initial\":[1,2],\"name\":\"v\",\"step\":0.5,"
+        "{\"group\":\"G\",\"initial\":true,\"name\":\"b\",\"type\":\"boolean\"},"
+        "{\"group\":\"G\",\"initial\":[1,2],\"name\":\"v\","
         "\"type\":\"number\"}],\"title\":\"part\"}");
     free(json);
     parameters_free(&p);
