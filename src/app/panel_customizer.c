@@ -138,7 +138,7 @@ static void copy(char *text)
     free(text);
 }
 
-static bool draw_head(struct panel_customizer *c, struct parameters *p)
+static bool draw_head(struct panel_customizer *c, struct parameters *p, const char *path)
 {
     bool changed = false;
     if (gui_button("reset all"))
@@ -154,17 +154,19 @@ static bool draw_head(struct panel_customizer *c, struct parameters *p)
     if (gui_button("copy source"))
         copy(parameters_source_lines(p));
     gui_hint("what is changed, as lines for the .scad");
+    if (p->count)
+        changed |= panel_sets_draw(&c->sets, p, path);
     gui_fill_width(0);
     gui_input("##search", "search", c->search, sizeof c->search);
     return changed;
 }
 
-bool panel_customizer_draw(struct panel_customizer *c, struct parameters *p,
+bool panel_customizer_draw(struct panel_customizer *c, struct parameters *p, const char *path,
                            const struct gui_box *box, bool *open)
 {
     bool changed = false, any = false;
     if (gui_window("Customizer", GUI_DOCK, box, open)) {
-        changed = draw_head(c, p);
+        changed = draw_head(c, p, path);
         for (uint32_t i = 0; i < p->count; i++)
             if (is_wanted(&p->items[i], c->search) && !is_known(p, i, c->search)) {
                 any = true;

@@ -41,7 +41,7 @@ bool panels_draw(struct panels *p, const struct panel_facts *facts, struct param
         panel_help_draw(&box, &p->open[PANEL_HELP]);
     if (p->open[PANEL_CUSTOMIZER])
         changed = panel_customizer_draw(
-            &p->customizer, parameters,
+            &p->customizer, parameters, facts->path,
             &(struct gui_box){box.width, 0, all.width - box.width, box.height},
             &p->open[PANEL_CUSTOMIZER]);
     return changed;

@@ -12,6 +12,7 @@ enum panel { PANEL_STATUS, PANEL_CONSOLE, PANEL_HELP, PANEL_CUSTOMIZER, PANELS }
 struct panel_facts {
     const char *doing; // what goes on for so long that it is told, or NULL
     double doing_for;  // seconds
+    const char *path;  // of the file
     const char *note;  // what the newest command has to say, or ""
     const struct report *report;
     bool failed;                  // the report says why the picture is an old one

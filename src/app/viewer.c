@@ -59,7 +59,8 @@ static const char *doing(const struct viewer *v, double *since)
 
 static struct panel_facts gather(const struct viewer *v)
 {
-    struct panel_facts f = {.note = v->note, .report = &v->report, .failed = v->failed};
+    struct panel_facts f = {
+        .path = v->options->path, .note = v->note, .report = &v->report, .failed = v->failed};
     double since;
     f.doing = doing(v, &since);
     f.doing_for = clock_seconds() - since;
@@ -325,6 +326,7 @@ bool viewer_run(const struct viewer_options *options, bool *ok, struct error *er
     loader_stop(v.loader);
     report_free(&v.report);
     parameters_free(&v.parameters);
+    panel_sets_free(&v.panels.customizer.sets);
     gui_stop();
     window_delete(v.window);
     window_close_all();

@@ -149,16 +149,23 @@ customizer)
     start a.scad
     wait_for err "length = 20, post = true"; shot first
     xdotool key u; shot opened; differ first opened; differ first opened 300x450+0+0 # moves aside
-    click 328 192; wait_for err "length = 20, post = false" # the check box
+    click 338 248; wait_for err "length = 20, post = false" # the check box
     shot bare; differ opened bare 300x450+0+0
-    xdotool mousemove 430 145 sleep 0.3 mousedown 1 # the slider
-    for x in $(seq 440 10 560); do xdotool mousemove $x 145 sleep 0.05; done
+    xdotool mousemove 430 195 sleep 0.3 mousedown 1 # the slider
+    for x in $(seq 440 10 560); do xdotool mousemove $x 195 sleep 0.05; done
     xdotool mouseup 1; shot long; differ bare long 300x450+0+0
     length=$(grep -o "length = [0-9.]*" err | tail -1); length=${length#* = }
     [ "$length" -gt 30 ] && [ $((length % 5)) = 0 ] || fail "the slider stops at $length"
     click 420 39; [ "$(pasted)" = "-D 'length=$length' -D 'post=false'" ] || fail "copied: $(pasted)"
-    click 420 64; xdotool type posq; shot found; differ long found # letters are no commands
-    xdotool key Escape; click 420 64; xdotool key ctrl+a key BackSpace key Escape; shot all
+    click 420 89; xdotool type wide; click 525 89 # a parameter set
+    grep -q '"post": *"false"' a.json || fail "no set was saved"
+    openscad -p a.json -P wide -o x.csg a.scad 2>&1 | grep -q "length = $length, post = false" ||
+        fail "openscad reads another set"
+    click 340 39; shot initial; same opened initial 300x450+0+0
+    click 420 64; shot chooses; click 420 90; shot chosen; same long chosen 300x450+0+0
+    click 578 89; ! grep -q wide a.json || fail "the set is still there"
+    click 420 114; xdotool type posq; shot found; differ long found # letters are no commands
+    xdotool key Escape; click 420 114; xdotool key ctrl+a key BackSpace key Escape; shot all
     { design 20; echo 'cube(1);'; } > a.scad # what was changed stays
     wait_for out "load [0-9]*:"; shot saved
     [ "$(tail -1 err)" = "ECHO: length = $length, post = false" ] || fail "after a save: $(tail -1 err)"
