@@ -2,6 +2,7 @@
 #include "measure.h"
 
 #include "base/parallel.h"
+#include "edits.h"
 #include "io/write_png.h"
 #include "stage.h"
 #include "turn.h"
@@ -304,7 +305,7 @@ bool measure_scene(struct result *out, const char *csg, const struct measure_opt
     }
     out->peak_bytes = s.stage.peak_bytes;
     device_delete(s.device);
-    ok = ok && measure_gl(&s, err);
+    ok = ok && edits_measure(out, csg, options, err) && measure_gl(&s, err);
     stage_free(&s.stage);
     return ok;
 }

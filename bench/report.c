@@ -45,6 +45,11 @@ void report_rows(FILE *tsv, const struct result *r)
     row(tsv, name, "setup_ms", &r->setup);
     row(tsv, name, "draw_ms", &r->draw);
     row(tsv, name, "opaque_empty_table_extra", &r->picture_extra);
+    row(tsv, name, "edit_tree_ms", &r->edits.tree);
+    row(tsv, name, "edit_model_ms", &r->edits.model);
+    row(tsv, name, "edit_ms", &r->edits.whole);
+    row(tsv, name, "edit_steady_ms", &r->edits.steady);
+    row(tsv, name, "edit_over_steady", &r->edits.over_steady);
     row(tsv, name, "intervals_ms", &r->spans);
     row(tsv, name, "intervals_empty_table_extra", &r->spans_extra);
     row(tsv, name, "hash_opaque_ms", &r->walk_picture[WALK_BY_HASH]);
@@ -196,6 +201,23 @@ static void stages(FILE *out, const struct result *results, uint32_t count)
     }
 }
 
+static void edits(FILE *out, const struct result *results, uint32_t count)
+{
+    fprintf(out, "\n### Edited number, ms\n\n"
+                 "| scene | primitives | tree | model | edit to picture, median (min, n) | "
+                 "the same picture again | edit / again | at most |\n"
+                 "|---|--:|--:|--:|--:|--:|--:|--:|\n");
+    for (uint32_t i = 0; i < count; i++) {
+        const struct edits_result *e = &results[i].edits;
+        if (e->whole.count)
+            fprintf(out, "| %s | %u | %.2f | %.2f | %.1f (%.1f, %u) | %.1f | **%.2f** | %.2f |\n",
+                    results[i].scene->name, results[i].leaves, samples_median(&e->tree),
+                    samples_median(&e->model), samples_median(&e->whole), samples_least(&e->whole),
+                    e->whole.count, samples_median(&e->steady), samples_median(&e->over_steady),
+                    samples_most(&e->over_steady));
+    }
+}
+
 static void tables(FILE *out, const struct result *results, uint32_t count)
 {
     fprintf(out, "\n### Tables of combinations\n\n"
@@ -238,6 +260,7 @@ void report_tables(FILE *out, const struct result *results, uint32_t count)
     against_opencsg(out, results, count);
     frames(out, results, count);
     stages(out, results, count);
+    edits(out, results, count);
     tables(out, results, count);
     walks(out, results, count);
     report_gl_tables(out, results, count);

@@ -46,6 +46,12 @@ struct gl_result {
     size_t peak_bytes, model_bytes; // of a frame beyond the body; of the body
 };
 
+struct edits_result {                  // of numbers that are edited
+    struct samples tree, model, whole; // of each: a tree with it, its model, all up to the picture
+    struct samples steady;             // the same picture again
+    struct samples over_steady;        // whole over steady
+};
+
 enum { WALK_BY_HASH, WALK_BY_ARRAY, WALKS };
 
 // Times in ms.
@@ -69,6 +75,7 @@ struct result {
     double misses; // combinations evaluated for all intervals from an empty table
     struct discovery_stats table;
     struct batch batch[BATCHES];
+    struct edits_result edits;
     struct gl_result gl;
     size_t peak_bytes; // of all frames
     struct opencsg_result opencsg[OPENCSG_SETTINGS];
