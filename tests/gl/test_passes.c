@@ -56,6 +56,65 @@ static void frames_tell_their_passes(void **state)
     stage_free(&s);
 }
 
+static void draw(struct device *d, const struct model *m, struct surface_image *out,
+                 struct render_stats *stats)
+{
+    struct rays rays = rays_from_above(20);
+    struct render_settings settings = {.epsilon = 1e-4, .threads = 1};
+    memset(out->face, 0, 400 * sizeof *out->face);
+    device_first_surface(d, &m->bodies[0], &rays, &settings, out, NULL, NULL, stats);
+}
+
+static void build(struct model *out, const char *text, struct solid_store *store,
+                  const struct model *before)
+{
+    struct messages messages = {0};
+    struct csg_tree tree;
+    struct model_options options = MODEL_DEFAULTS;
+    size_t size = strlen(text);
+    char *copy = mem_zalloc(size + 2);
+    memcpy(copy, text, size);
+    options.before = before;
+    assert_true(csg_parse(&tree, "unit.csg", copy, size, &messages));
+    model_build(out, &tree, store, &options, &messages);
+    csg_free(&tree);
+    free(copy);
+    messages_free(&messages);
+}
+
+// A model that takes the place of another shows what it shows on its own, and brings no meshes
+// along that are there.
+static void edits_leave_meshes_where_they_are(void **state)
+{
+    static const char first[] = "difference() { sphere($fn = 60, r = 8); cube(5); cube(2); }";
+    static const char moved[] = "difference() { sphere($fn = 60, r = 7); cube(6); }";
+    struct device *d = *state;
+    struct solid_store *store = solid_store_new(), *other = solid_store_new();
+    struct model before, now, alone;
+    float depth[2][400];
+    uint32_t leaf[2][400], face[2][400];
+    struct surface_image a = {20, 20, depth[0], leaf[0], face[0]};
+    struct surface_image b = {20, 20, depth[1], leaf[1], face[1]};
+    struct render_stats once, shared, whole;
+    build(&before, first, store, NULL);
+    build(&now, moved, store, &before);
+    build(&alone, moved, other, NULL);
+    draw(d, &before, &a, &once);
+    draw(d, &now, &a, &shared);
+    draw(d, &alone, &b, &whole);
+    assert_memory_equal(depth[0], depth[1], sizeof depth[0]);
+    assert_memory_equal(leaf[0], leaf[1], sizeof leaf[0]);
+    assert_memory_equal(face[0], face[1], sizeof face[0]);
+    size_t mesh = now.bodies[0].leaves[0].solid->mesh.triangle_count * 32;
+    assert_true(shared.model_bytes < once.model_bytes + mesh);
+    assert_true(whole.model_bytes > shared.model_bytes + mesh);
+    model_free(&before);
+    model_free(&now);
+    model_free(&alone);
+    solid_store_delete(store);
+    solid_store_delete(other);
+}
+
 int main(void)
 {
     struct error err;
@@ -65,6 +124,7 @@ int main(void)
         return 77;
     }
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_prestate(edits_leave_meshes_where_they_are, device),
         cmocka_unit_test_prestate(frames_tell_their_passes, device),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -51,6 +51,7 @@ static bool settle(struct gl_device *d, struct gl_drawing *g)
 {
     uint64_t identity = discovery_identity(g->body->table);
     struct resident *oldest = d->residents;
+    struct gl_solids *solids = NULL; // of another body, when it has all that is needed
     d->pictures++;
     for (int i = 0; i < RESIDENTS; i++) {
         struct resident *r = &d->residents[i];
@@ -63,15 +64,21 @@ static bool settle(struct gl_device *d, struct gl_drawing *g)
             return true;
         }
         oldest = r->used < oldest->used ? r : oldest;
+        if (!solids && gl_solids_suffice(r->scene.solids, g->body))
+            solids = r->scene.solids;
     }
-    evict(oldest);
+    struct gl_scene scene = {0};
     gl_timer_begin(&d->work.timers, "upload");
-    bool there = gl_scene_upload(&oldest->scene, &d->model, g->body, g->err);
-    gl_timer_end(&d->work.timers);
-    if (!there) {
+    if (!solids) // makes room first
         evict(oldest);
+    bool there = gl_scene_upload(&scene, &d->model, g->body, solids, g->err);
+    gl_timer_end(&d->work.timers);
+    evict(oldest);
+    if (!there) {
+        gl_scene_free(&scene);
         return false;
     }
+    oldest->scene = scene;
     oldest->identity = identity;
     oldest->used = d->pictures;
     g->scene = &oldest->scene;

@@ -223,9 +223,9 @@ static void bind_triangles(const struct gl_work *w, const struct gl_scene *scene
 {
     bind_frame(w, scene);
     gl_buffer_bind(&w->views, BIND_VIEWS);
-    gl_buffer_bind(&scene->vertices, BIND_VERTICES);
-    gl_buffer_bind(&scene->triangles, BIND_TRIANGLES);
-    gl_buffer_bind(&scene->planes, BIND_PLANES);
+    gl_buffer_bind(&scene->solids->vertices, BIND_VERTICES);
+    gl_buffer_bind(&scene->solids->triangles, BIND_TRIANGLES);
+    gl_buffer_bind(&scene->solids->planes, BIND_PLANES);
     gl_buffer_bind(&w->starts, BIND_STARTS);
     gl_buffer_bind(&w->large, BIND_LARGE);
     gl_buffer_bind(counts, BIND_COUNTS);
@@ -316,8 +316,8 @@ static void bind_walk(const struct gl_work *w, const struct gl_scene *scene,
 {
     bind_frame(w, scene);
     gl_buffer_bind(&scene->values, BIND_VALUES);
-    gl_buffer_bind(&scene->planes, BIND_PLANES);
-    gl_buffer_bind(&scene->faces, BIND_FACES);
+    gl_buffer_bind(&scene->solids->planes, BIND_PLANES);
+    gl_buffer_bind(&scene->solids->faces, BIND_FACES);
     gl_buffer_bind(&w->offsets, BIND_OFFSETS);
     gl_buffer_bind(&w->fragments, BIND_FRAGMENTS);
     gl_buffer_bind(&w->states, BIND_STATES);

@@ -9,29 +9,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Solids of a body, each once, in the order of their first leaves.
-struct catalogue {
-    struct entry {
-        const struct solid *solid;
-        uint32_t vertex, triangle; // first of it in the buffers
-        uint32_t flags;            // of its leaves
-    } * entries;
-    uint32_t count;
-    uint32_t *entry_of_leaf;
-    uint32_t vertices, triangles;
+struct gl_solid {
+    const struct solid *solid; // its memory may be gone: only compared, with the hash
+    uint64_t hash;
+    uint32_t vertex, triangle; // first of it in the buffers
+    uint32_t flags;            // of its leaves
 };
 
-struct solid_of_leaf {
-    const struct solid *solid;
-    uint32_t leaf;
+// What is to be uploaded.
+struct catalogue {
+    const struct solid **solids; // of which entries are made
+    uint32_t vertices, triangles;
 };
 
 static int compare_solids(const void *a, const void *b)
 {
-    const struct solid_of_leaf *p = a, *q = b;
-    if (p->solid != q->solid)
-        return (uintptr_t)p->solid < (uintptr_t)q->solid ? -1 : 1;
-    return p->leaf < q->leaf ? -1 : p->leaf > q->leaf;
+    uintptr_t p = (uintptr_t) * (const struct solid *const *)a;
+    uintptr_t q = (uintptr_t) * (const struct solid *const *)b;
+    return p < q ? -1 : p > q;
 }
 
 // What winding numbers around the solid may be.
@@ -44,40 +39,60 @@ static uint32_t winding_flags(const struct solid *s)
     return mesh_is_never_inside_out(&s->mesh) ? 0 : LEAF_WINDING;
 }
 
+static const struct gl_solid *find_solid(const struct gl_solids *s, const struct solid *solid)
+{
+    uint32_t low = 0, high = s->count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if ((uintptr_t)s->entries[middle].solid < (uintptr_t)solid)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    bool there = low < s->count && s->entries[low].solid == solid;
+    return there && s->entries[low].hash == solid->hash ? &s->entries[low] : NULL;
+}
+
+bool gl_solids_suffice(const struct gl_solids *s, const struct body *body)
+{
+    bool all = s != NULL;
+    for (uint32_t i = 0; all && i < body->leaf_count; i++)
+        all = find_solid(s, body->leaves[i].solid) != NULL;
+    return all;
+}
+
 // False when numbers of the shaders cannot count them: a fragment holds twice the number of its
 // leaf, and the crossings of a ray are below 2^32 as long as those triangles are below 2^31, each
 // of which may also be begun by the ray (fragments.comp.glsl).
-static bool list_solids(struct catalogue *c, const struct body *body)
+static bool are_countable(const struct body *body)
 {
-    struct solid_of_leaf *all = mem_alloc((body->leaf_count + 1) * sizeof *all);
-    uint64_t vertices = 0, triangles = 0, placed = 0;
-    c->entries = mem_alloc((body->leaf_count + 1) * sizeof *c->entries);
-    c->entry_of_leaf = mem_alloc((body->leaf_count + 1) * sizeof *c->entry_of_leaf);
+    uint64_t placed = 0;
     for (uint32_t i = 0; i < body->leaf_count; i++)
-        all[i] = (struct solid_of_leaf){body->leaves[i].solid, i};
-    qsort(all, body->leaf_count, sizeof *all, compare_solids);
-    for (uint32_t i = 0; i < body->leaf_count; i++) {
-        const struct solid *s = all[i].solid;
-        placed += s->mesh.triangle_count;
-        if (!i || s != all[i - 1].solid) {
-            c->entries[c->count++] =
-                (struct entry){s, (uint32_t)vertices, (uint32_t)triangles, winding_flags(s)};
-            vertices += s->mesh.vertex_count;
-            triangles += s->mesh.triangle_count;
-        }
-        c->entry_of_leaf[all[i].leaf] = c->count - 1;
-    }
-    free(all);
-    c->vertices = (uint32_t)vertices;
-    c->triangles = (uint32_t)triangles;
-    return vertices <= UINT32_MAX / 3 && triangles <= FRAGMENT_TRIANGLE && placed <= INT32_MAX &&
-           body->leaf_count <= INT32_MAX;
+        placed += body->leaves[i].solid->mesh.triangle_count;
+    return placed <= INT32_MAX && body->leaf_count <= INT32_MAX;
 }
 
-static void catalogue_free(struct catalogue *c)
+static bool list_solids(struct gl_solids *s, struct catalogue *c, const struct body *body)
 {
-    free(c->entries);
-    free(c->entry_of_leaf);
+    uint32_t n = body->leaf_count;
+    uint64_t vertices = 0, triangles = 0;
+    c->solids = mem_alloc(((size_t)n + 1) * sizeof *c->solids);
+    s->entries = mem_alloc(((size_t)n + 1) * sizeof *s->entries);
+    for (uint32_t i = 0; i < n; i++)
+        c->solids[i] = body->leaves[i].solid;
+    qsort(c->solids, n, sizeof *c->solids, compare_solids);
+    for (uint32_t i = 0; i < n; i++) {
+        const struct solid *solid = c->solids[i];
+        if (i && solid == c->solids[i - 1])
+            continue;
+        s->entries[s->count++] = (struct gl_solid){solid, solid->hash, (uint32_t)vertices,
+                                                   (uint32_t)triangles, winding_flags(solid)};
+        vertices += solid->mesh.vertex_count;
+        triangles += solid->mesh.triangle_count;
+    }
+    c->vertices = (uint32_t)vertices;
+    c->triangles = (uint32_t)triangles;
+    return vertices <= UINT32_MAX / 3 && triangles <= FRAGMENT_TRIANGLE;
 }
 
 // The plane of a triangle, local: that of its face when the solid is convex.
@@ -110,7 +125,7 @@ static bool upload(struct gl_buffer *b, struct gl_memory *memory, const char *la
     return true;
 }
 
-static bool upload_solids(struct gl_scene *s, struct gl_memory *memory, const struct catalogue *c,
+static bool upload_solids(struct gl_solids *s, struct gl_memory *memory, const struct catalogue *c,
                           struct error *err)
 {
     size_t vertices = c->vertices, triangles = c->triangles;
@@ -118,8 +133,8 @@ static bool upload_solids(struct gl_scene *s, struct gl_memory *memory, const st
     uint32_t(*corners)[3] = mem_alloc((triangles + 1) * sizeof *corners);
     double(*planes)[4] = mem_alloc((triangles + 1) * sizeof *planes);
     uint32_t *faces = mem_alloc((triangles + 1) * sizeof *faces);
-    for (uint32_t i = 0; i < c->count; i++) {
-        const struct entry *e = &c->entries[i];
+    for (uint32_t i = 0; i < s->count; i++) {
+        const struct gl_solid *e = &s->entries[i];
         const struct mesh *m = &e->solid->mesh;
         if (!m->triangle_count)
             continue;
@@ -165,15 +180,15 @@ static uint32_t region_flags(const struct leaf *l, const struct box *roi)
     return flags;
 }
 
-static bool upload_leaves(struct gl_scene *s, struct gl_memory *memory, const struct catalogue *c,
-                          const struct body *body, struct error *err)
+static bool upload_leaves(struct gl_scene *s, struct gl_memory *memory, const struct body *body,
+                          struct error *err)
 {
     size_t n = body->leaf_count;
     struct leaf_data *leaves = mem_zalloc((n + 1) * sizeof *leaves);
     s->flags = mem_alloc((n + 1) * sizeof *s->flags);
     for (uint32_t i = 0; i < n; i++) {
         const struct leaf *l = &body->leaves[i];
-        const struct entry *e = &c->entries[c->entry_of_leaf[i]];
+        const struct gl_solid *e = find_solid(s->solids, l->solid);
         struct leaf_data *out = &leaves[i];
         uint32_t class_id = body->sharing.class_of_leaf[i];
         memcpy(out->to_world, l->to_world.m, sizeof out->to_world);
@@ -221,24 +236,51 @@ void gl_scene_renew(struct gl_scene *s, const struct body *body)
     s->renewals = discovery_renewals(body->table);
 }
 
-bool gl_scene_upload(struct gl_scene *s, struct gl_memory *memory, const struct body *body,
-                     struct error *err)
+static void solids_release(struct gl_solids *s)
 {
-    struct catalogue c = {0};
-    bool fine = list_solids(&c, body);
-    if (!fine)
-        error_set(err, "the model has more triangles than the gl device can count");
-    fine = fine && upload_solids(s, memory, &c, err) && upload_leaves(s, memory, &c, body, err);
-    catalogue_free(&c);
-    return fine;
-}
-
-void gl_scene_free(struct gl_scene *s)
-{
+    if (!s || --s->references)
+        return;
     gl_buffer_free(&s->vertices);
     gl_buffer_free(&s->triangles);
     gl_buffer_free(&s->planes);
     gl_buffer_free(&s->faces);
+    free(s->entries);
+    free(s);
+}
+
+static struct gl_solids *solids_new(struct gl_memory *memory, const struct body *body,
+                                    struct error *err)
+{
+    struct gl_solids *s = mem_zalloc(sizeof *s);
+    struct catalogue c = {0};
+    s->references = 1;
+    bool fine = list_solids(s, &c, body);
+    if (!fine)
+        error_set(err, "the model has more triangles than the gl device can count");
+    if (!fine || !upload_solids(s, memory, &c, err)) {
+        solids_release(s);
+        s = NULL;
+    }
+    free(c.solids);
+    return s;
+}
+
+bool gl_scene_upload(struct gl_scene *s, struct gl_memory *memory, const struct body *body,
+                     struct gl_solids *solids, struct error *err)
+{
+    if (!are_countable(body)) {
+        error_set(err, "the model has more triangles than the gl device can count");
+        return false;
+    }
+    if (solids)
+        solids->references++;
+    s->solids = solids ? solids : solids_new(memory, body, err);
+    return s->solids && upload_leaves(s, memory, body, err);
+}
+
+void gl_scene_free(struct gl_scene *s)
+{
+    solids_release(s->solids);
     gl_buffer_free(&s->leaves);
     gl_buffer_free(&s->values);
     free(s->flags);
