@@ -2,6 +2,8 @@
 #include "hcsg/discovery.h"
 #include "unit.h"
 
+#include <pthread.h>
+
 enum { LEAVES = 12, SETS = 60 };
 
 struct scene {
@@ -172,12 +174,51 @@ static void classes_that_mix_are_new(void **state)
     free(p.tokens);
 }
 
+struct finder {
+    struct scene *scene;
+    _Atomic bool over;
+};
+
+static void *find(void *argument)
+{
+    struct finder *f = argument;
+    for (uint64_t i = 1; !f->over; i++)
+        fill(f->scene, i);
+    return NULL;
+}
+
+// The old model is drawn while the new one is made.
+static void the_old_one_may_be_in_use(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        uint64_t random = seed;
+        uint32_t kept = 0;
+        struct postfix p = postfix_random(&random, LEAVES);
+        struct scene before, now;
+        scene_build(&before, &p, LEAVES);
+        scene_build(&now, &p, LEAVES);
+        fill(&before, seed);
+        struct finder finder = {.scene = &before};
+        pthread_t thread;
+        assert_int_equal(pthread_create(&thread, NULL, find, &finder), 0);
+        discovery_inherit(now.d, before.d, NULL);
+        finder.over = true;
+        pthread_join(thread, NULL);
+        check(&now, &before, NULL, seed, &kept);
+        scene_free(&now);
+        scene_free(&before);
+        free(p.tokens);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(operations_change),
         cmocka_unit_test(a_leaf_goes),
         cmocka_unit_test(classes_that_mix_are_new),
+        cmocka_unit_test(the_old_one_may_be_in_use),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
