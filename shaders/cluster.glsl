@@ -163,7 +163,10 @@ uint owner_together(uint turning, bool solid, uint cut)
     bool found = false;
     for (uint i = from; i < to; i++)
         mark(i, false);
-    for (uint i = next_in_file(to, turning); i != to; i = next_in_file(i, turning)) {
+    for (uint i = to;;) {
+        i = next_in_file(i, turning);
+        if (i == to)
+            break;
         mark(i, true);
         if (solid_with(SUBSET_KEPT, 0) == solid)
             continue;

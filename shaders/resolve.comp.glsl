@@ -217,11 +217,20 @@ bool walk(uvec2 key)
 #endif
     from = 0;
     before = key;
-    for (; i < size && ahead < frame.ahead; i++) {
-        fragment f = at(i);
-        if (i > from && thick(at(from), f)) {
+    for (;; i++) {
+        // Behind the crossings of the slab others may follow, further away than its end.
+        bool over = i >= size || ahead >= frame.ahead;
+        fragment f = fragment(frame.slab_end, 0, 0, 0);
+        if (!over)
+            f = at(i);
+        else if (frame.slab_last == 0 && (unknown || i < size))
+            break;
+        bool last = over && frame.slab_last != 0;
+        if (last || (i > from && thick(at(from), f))) {
             to = i;
             bool now = is_solid(key, SUBSET_ALL, 0);
+            if (last && now && ends_thin(key)) // nothing begins there any more
+                now = solid;
             if (!unknown && now != solid && change(now))
                 return true;
             ahead += uint(unknown);
@@ -231,21 +240,16 @@ bool walk(uvec2 key)
             from = i;
             before = key;
         }
+        if (over)
+            break;
         key = key_add(key, step_of(f));
     }
-    if (frame.slab_last == 0) {
-        if (!waits())
-            carry(i);
-        return false;
+    if (frame.slab_last != 0) {
+        if (!unknown)
+            finish();
+    } else if (!waits()) {
+        carry(i);
     }
-    to = i;
-    bool now = is_solid(key, SUBSET_ALL, 0);
-    if (now && ends_thin(key)) // nothing begins there any more
-        now = solid;
-    if (!unknown && now != solid && change(now))
-        return true;
-    if (!unknown)
-        finish();
     return false;
 }
 
