@@ -176,6 +176,7 @@ void agree_add(struct agreement *sum, const struct agreement *one)
     sum->pixels += one->pixels;
     sum->hits += one->hits;
     sum->silhouettes += one->silhouettes;
+    sum->unequal += one->unequal;
     add_of(&sum->surface, &one->surface);
     add_of(&sum->spans, &one->spans);
 }

@@ -17,6 +17,7 @@ struct agreement_of {
 
 struct agreement {
     uint64_t pixels, hits, silhouettes;
+    uint64_t unequal; // pictures of the second way that its settings have changed
     struct agreement_of surface, spans;
 };
 

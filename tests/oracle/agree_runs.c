@@ -5,6 +5,7 @@
 #include "base/mem.h"
 #include "base/parallel.h"
 #include "broken.h"
+#include "render/gl/plan.h"
 #include "report.h"
 #include "sides.h"
 
@@ -20,7 +21,7 @@ static double share(uint64_t others, uint64_t pixels)
 static bool agrees(const struct agreement *a, double tolerance, bool aligned)
 {
     double wanted = aligned ? 98 : 99.99;
-    return share(a->surface.others, a->pixels) >= wanted &&
+    return !a->unequal && share(a->surface.others, a->pixels) >= wanted &&
            share(a->spans.others, a->pixels) >= wanted &&
            (aligned || fmax(a->surface.depth, a->spans.depth) <= tolerance);
 }
@@ -36,6 +37,8 @@ static void print_agreement(const char *name, const struct agreement *a)
     printf("%s: %llu pixels, %.1f %% hit, %.1f %% at silhouettes\n", name,
            (unsigned long long)a->pixels, 100 - share(a->hits, a->pixels),
            100 - share(a->silhouettes, a->pixels));
+    if (a->unequal)
+        printf("  %llu pictures changed with the settings\n", (unsigned long long)a->unequal);
     print_part("surfaces", &a->surface, a->pixels);
     print_part("spans", &a->spans, a->pixels);
 }
@@ -51,6 +54,31 @@ static void explain_pixel(const struct agreement_of *of, const struct side *side
     report_crossings(stdout, side->body, &side->rays, of->x, of->y);
 }
 
+// Is the picture another one with other settings?
+static uint64_t count_unequal(struct device *device, const struct side *side,
+                              const struct render_settings *settings, const struct picture *wanted)
+{
+    static const struct render_settings budgets[] = {
+        {.slabs = 3}, {.slabs = 5}, {.memory = GL_MEMORY_LEAST}};
+    uint64_t unequal = 0;
+    for (size_t i = 0; i < array_count(budgets); i++) {
+        struct picture p;
+        struct render_settings s = *settings;
+        int x, y;
+        s.slabs = budgets[i].slabs;
+        s.memory = budgets[i].memory;
+        picture_render(&p, device, side->body, &side->rays, &s);
+        if (!picture_equal(wanted, &p, &x, &y)) {
+            printf("pixel %d %d changes with the settings\n", x, y);
+            report_device(stdout, &side->rays, wanted, x, y);
+            report_device(stdout, &side->rays, &p, x, y);
+            unequal++;
+        }
+        picture_free(&p);
+    }
+    return unequal;
+}
+
 static void compare(struct agreement *out, struct device *first, struct device *second,
                     const struct side *side, const struct options *options, bool explain)
 {
@@ -63,6 +91,8 @@ static void compare(struct agreement *out, struct device *first, struct device *
     settings.walk = options->array ? WALK_ARRAY : WALK_HASH;
     picture_render(&b, second, side->body, &side->rays, &settings);
     agree_compare(out, side->body, &side->rays, &a, &b, side->tolerance);
+    if (options->budgets)
+        out->unequal = count_unequal(second, side, &settings, &b);
     if (explain) {
         explain_pixel(&out->surface, side, &a, &b);
         explain_pixel(&out->spans, side, &a, &b);
@@ -126,7 +156,8 @@ int agree_random(const struct options *options)
            (unsigned long long)options->seed, strange);
     print_agreement("generic", &sum[0]);
     print_agreement("pixels on faces seen edge-on", &sum[1]);
-    return agrees(&sum[0], 2e-3, false) && agrees(&sum[1], 2e-3, true) ? 0 : 1;
+    bool few = strange <= options->count / 200; // a pixel of one tree is too few to count in all
+    return few && agrees(&sum[0], 2e-3, false) && agrees(&sum[1], 2e-3, true) ? 0 : 1;
 }
 
 struct file_sides {

@@ -17,6 +17,10 @@ static int parse_option(struct options *o, int left, char **argv)
         o->array = true;
         return 1;
     }
+    if (!strcmp(argv[0], "--budgets")) {
+        o->budgets = true;
+        return 1;
+    }
     if (!strcmp(argv[0], "--pixel") && left >= 3) {
         o->x = atoi(argv[1]);
         o->y = atoi(argv[2]);

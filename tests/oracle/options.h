@@ -12,8 +12,9 @@ struct options {
     bool one_pixel;
     int x, y;
     enum walk walk;
-    bool gl;    // the device under test
-    bool array; // it walks by the array method
+    bool gl;      // the device under test
+    bool array;   // it walks by the array method
+    bool budgets; // and with other slabs and memory, which may change nothing
     size_t memory;
     uint32_t slabs;
 };
