@@ -333,15 +333,16 @@ static void rows_may_be_cut(void **state)
     chain_free(&c);
 }
 
+// Some rows of a picture as wide as any: more rows are more bands (tests/gl/test_plan.c).
 static void large_pictures_fit(void **state)
 {
     struct error why;
     struct chain c;
-    chain_make(&c, 4, 640, 480);
+    chain_make(&c, 4, 8192, 32);
     struct random_scene *s = &c.scene;
-    size_t n = 640 * 480;
+    size_t n = 8192 * 32;
     struct surface_image image[2];
-    struct render_settings settings[2] = {{.epsilon = s->epsilon},
+    struct render_settings settings[2] = {{.epsilon = s->epsilon, .memory = 1 << 30},
                                           {.epsilon = s->epsilon, .memory = 1 << 20}};
     struct render_stats stats;
     for (int i = 0; i < 2; i++) {
