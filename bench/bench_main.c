@@ -2,6 +2,7 @@
 #include "base/mem.h"
 #include "curves.h"
 #include "discovery.h"
+#include "lists.h"
 #include "measure.h"
 #include "program.h"
 #include "report.h"
@@ -13,7 +14,7 @@
 
 static struct {
     const char *list, *scenes, *output, *pictures, *device;
-    bool opencsg, process, unshared, curves, values, discovery;
+    bool opencsg, process, unshared, curves, values, discovery, lists;
     uint32_t frames, threads, size;
     double limit;
 } given = {.list = HCSG_BENCH_LIST,
@@ -52,6 +53,10 @@ static const struct option options[] = {
      "compare how combinations are learned with OpenGL: at once, over\n"
      "frames, from three sides",
      &given.discovery, 0, 0},
+    {"lists", 0, OPTION_FLAG, NULL,
+     "measure instead how OpenGL lists crossings: counted, written and\n"
+     "sorted, or inserted in order into linked lists",
+     &given.lists, 0, 0},
     {"process", 0, OPTION_FLAG, NULL,
      "the operands are .csg files: time whole runs of hcsg-render and openscad", &given.process, 0,
      0},
@@ -135,6 +140,8 @@ static bool bench_scene(FILE *tsv, struct result *r, struct discovery_result *le
             discovery_rows(tsv, lesson);
         return learned;
     }
+    if (given.lists)
+        return lists_measure(stdout, r->scene->name, csg, &ours, err);
     if (!measure_scene(r, csg, &ours, err))
         return false;
     const struct opponent_options theirs = {.program = opencsg,
@@ -157,6 +164,8 @@ static bool bench_scenes(FILE *tsv, char **names, int count, struct error *err)
     struct result *results = mem_zalloc((scenes.count + 1) * sizeof *results);
     struct discovery_result *lessons = mem_zalloc((scenes.count + 1) * sizeof *lessons);
     uint32_t done = 0;
+    if (given.lists)
+        lists_heading(stdout);
     bool ok = names_are_known(&scenes, names, count, err);
     for (uint32_t i = 0; ok && i < scenes.count; i++) {
         if (!is_wanted(scenes.items[i].name, names, count))
@@ -167,7 +176,7 @@ static bool bench_scenes(FILE *tsv, char **names, int count, struct error *err)
     }
     if (ok && given.discovery)
         discovery_tables(stdout, lessons, done, given.size);
-    else if (ok && !given.curves && !given.values)
+    else if (ok && !given.curves && !given.values && !given.lists)
         report_tables(stdout, results, done);
     for (uint32_t i = 0; i < done; i++) {
         result_free(&results[i]);

@@ -20,7 +20,7 @@ bool thick(fragment a, fragment b)
 bool is_paired(uint c)
 {
     uint leaf = at(c).leaf, same = 0, other = 0;
-    for (uint i = from; i < to; i++) {
+    for (uint i = from; i != to; i = next(i)) {
         same += uint(at(i).leaf == leaf);
         other += uint((at(i).leaf ^ leaf) == FRAGMENT_LEAVES);
     }
@@ -53,7 +53,7 @@ void drop_turns()
 {
     uint last = to, best = to, best_next = to;
     float least = 3.4e38;
-    for (uint i = from; i < to; i++) {
+    for (uint i = from; i != to; i = next(i)) {
         if (!is_marked(i))
             continue;
         if (last != to && at(i).key - at(last).key <= least) {
@@ -74,10 +74,10 @@ uint find_turns(bool solid)
     uvec2 key = before;
     bool now = !solid;
     uint turns = 0;
-    for (uint i = from; i < to; i++)
+    for (uint i = from; i != to; i = next(i))
         if (is_border(i) && in_subset(SUBSET_PREFIX, i, 0))
             key = key_add(key, step_of(at(i)));
-    for (uint i = from; i < to; i++) {
+    for (uint i = from; i != to; i = next(i)) {
         mark(i, false);
         if (is_border(i))
             continue;
@@ -109,12 +109,12 @@ uint turning_point(bool solid)
     for (uint turns = most; turns > 1; turns -= 2)
         drop_turns();
     while (!is_marked(found))
-        found++;
+        found = next(found);
     if (most == 1 || matters(found, solid))
         return found;
     find_turns(solid);
     bool makes = true;
-    for (uint i = from; i < to; i++) {
+    for (uint i = from; i != to; i = next(i)) {
         if (!is_marked(i))
             continue;
         if (makes && matters(i, solid))
@@ -144,14 +144,14 @@ bool competes(uint i, uint turning)
 // Of the crossings that compete, the next one in the file; `to`: `last` was the last one.
 uint next_in_file(uint last, uint turning)
 {
-    uint next = to, after = last == to ? 0 : at(last).leaf >> 1;
-    for (uint i = from; i < to; i++) {
+    uint found = to, after = last == to ? 0 : at(last).leaf >> 1;
+    for (uint i = from; i != to; i = next(i)) {
         uint leaf = at(i).leaf >> 1;
-        bool behind = last == to || leaf > after || (leaf == after && i > last);
-        if (behind && (next == to || leaf < at(next).leaf >> 1) && competes(i, turning))
-            next = i;
+        bool behind = last == to || leaf > after || (leaf == after && goes_first(at(last), at(i)));
+        if (behind && (found == to || leaf < at(found).leaf >> 1) && competes(i, turning))
+            found = i;
     }
-    return next;
+    return found;
 }
 
 // Where several crossings in one plane turn the state together, so that none of them matters: they
@@ -161,7 +161,7 @@ uint owner_together(uint turning, bool solid, uint cut)
 {
     uint best = turning;
     bool found = false;
-    for (uint i = from; i < to; i++)
+    for (uint i = from; i != to; i = next(i))
         mark(i, false);
     for (uint i = to;;) {
         i = next_in_file(i, turning);
@@ -181,7 +181,7 @@ uint owner_together(uint turning, bool solid, uint cut)
 // Of the crossings at one place, the one whose surface shows there: cluster_owner in cluster.c.
 uint owner_of(bool solid)
 {
-    if (to - from == 1)
+    if (next(from) == to)
         return from;
     uint turning = turning_point(solid);
     if (turning == to)
@@ -189,7 +189,7 @@ uint owner_of(bool solid)
     uint best = turning;
     bool weak = is_paired(turning) || !matters(turning, solid);
     uint cut = frame.borders != 0 ? uint(!solid_with(SUBSET_ENTER, 0)) : 2;
-    for (uint i = from; i < to; i++) {
+    for (uint i = from; i != to; i = next(i)) {
         if (i == turning || (!weak && !shows_before(i, best, cut)) || !competes(i, turning) ||
             !matters(i, solid))
             continue;

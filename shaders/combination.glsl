@@ -38,7 +38,7 @@ bool in_subset(int subset, uint i, uint c)
     if (subset == SUBSET_KEPT)
         return !is_marked(i);
     if (subset == SUBSET_PREFIX)
-        return i <= c;
+        return !goes_first(at(c), at(i));
     return (((at(i).leaf ^ at(c).leaf) & like) == 0) == (subset == SUBSET_ALONE);
 }
 
@@ -63,7 +63,7 @@ void record(uvec2 key, int subset, uint c)
     if (count.misses > frame.miss_most || !claim(key)) // full; or it is there
         return;
     uint n = 0;
-    for (uint i = from; i < to; i++)
+    for (uint i = from; i != to; i = next(i))
         n += uint(in_subset(subset, i, c));
     uint words = 5 + n, start = atomicAdd(count.misses, words);
     if (start + words > frame.miss_most || start + words < start)
@@ -74,7 +74,7 @@ void record(uvec2 key, int subset, uint c)
     misses[start + 3] = key.y;
     misses[start + 4] = n;
     start += 5;
-    for (uint i = from; i < to; i++)
+    for (uint i = from; i != to; i = next(i))
         if (in_subset(subset, i, c))
             misses[start++] = at(i).leaf;
 }
@@ -83,7 +83,7 @@ void record(uvec2 key, int subset, uint c)
 // Crossings of the cluster come or, by -1, go.
 void count_subset(int subset, uint c, int by)
 {
-    for (uint i = from; i < to; i++)
+    for (uint i = from; i != to; i = next(i))
         if (in_subset(subset, i, c))
             count_leaf(at(i).leaf >> 1, uint((at(i).leaf & FRAGMENT_LEAVES) != 0 ? -by : by));
 }
@@ -114,7 +114,7 @@ bool is_solid(uvec2 key, int subset, uint c)
 uvec2 sum_of(int subset, uint c)
 {
     uvec2 sum = before;
-    for (uint i = from; i < to; i++)
+    for (uint i = from; i != to; i = next(i))
         if (in_subset(subset, i, c))
             sum = key_add(sum, step_of(at(i)));
     return sum;

@@ -1,7 +1,7 @@
 // fragments.comp.glsl - the crossings of rays and leaves in one band and slab.
 //
-// Built with COUNT they are counted per pixel, with HISTOGRAM by their keys, else written to the places
-// that the counts made.
+// Built with COUNT they are counted per pixel, with HISTOGRAM by their keys, with LINKED put into lists,
+// else written to the places that the counts made.
 // A thread takes one triangle; triangles that may cover many pixels are cut into pieces, which the
 // build with PIECES takes, a work group each. All builds see the same crossings: what decides is
 // exact or `precise`.
@@ -22,11 +22,18 @@ layout(std430, binding = BIND_COUNTS) restrict buffer count_buffer
 {
     uint counts[];
 };
+#ifdef LINKED
+layout(std430, binding = BIND_LINKS) coherent restrict buffer link_buffer
+{
+    uint links[];
+};
+#else
 layout(std430, binding = BIND_OFFSETS) readonly restrict buffer offset_buffer
 {
     uint offsets[];
 };
-layout(std430, binding = BIND_FRAGMENTS) writeonly restrict buffer fragment_buffer
+#endif
+layout(std430, binding = BIND_FRAGMENTS) coherent restrict buffer fragment_buffer
 {
     fragment fragments[];
 };
@@ -38,6 +45,8 @@ layout(std430, binding = BIND_COUNTERS) restrict buffer counter_buffer
 {
     counters count;
 };
+
+#include "crossings.glsl"
 
 #ifdef HISTOGRAM
 shared uint bins[BINS];
@@ -95,6 +104,14 @@ void write(uint at, uint leaf, uint triangle, bool leaving, float key, float ste
     atomicAdd(bins[min(uint(bin), BINS - 1)], 1);
 #elif defined(COUNT)
     atomicAdd(counts[at], 1);
+#elif defined(LINKED)
+    if (count.fragments >= CROSSINGS_MOST) // too many to be counted
+        return;
+    uint number = atomicAdd(count.fragments, 1);
+    if (number < frame.crossings_most) {
+        fragments[number] = fragment(key, leaf << 1 | uint(leaving), triangle, steep);
+        insert(at, first_cursor() + number);
+    }
 #else
     uint to = offsets[at] + atomicAdd(counts[at], 0xffffffffu) - 1;
     fragments[to] = fragment(key, leaf << 1 | uint(leaving), triangle, steep);
@@ -228,7 +245,7 @@ void take()
             continue;
         if (small)
             draw(leaf, triangle, p, part, way, r, 1, ivec2(0));
-#ifdef COUNT
+#if defined(COUNT) || defined(LINKED)
         else
             cut(leaf, triangle, part, r);
 #endif

@@ -43,10 +43,17 @@ layout(std430, binding = BIND_FACES) readonly restrict buffer face_buffer
 {
     uint faces[];
 };
+#ifdef LINKED
+layout(std430, binding = BIND_LINKS) restrict buffer link_buffer
+{
+    uint links[];
+};
+#else
 layout(std430, binding = BIND_OFFSETS) readonly restrict buffer offset_buffer
 {
     uint offsets[];
 };
+#endif
 layout(std430, binding = BIND_FRAGMENTS) restrict buffer fragment_buffer
 {
     fragment fragments[];
@@ -81,11 +88,11 @@ struct boundary {
 };
 
 // The ray of this thread.
-uint pixel;       // of the band
-uint first, size; // its fragments
-bool unknown;     // it met an unknown combination
-uint missing = 0; // OVER_FRAMES: stands for the first of them
-uvec2 before;     // the key in front of the cluster [from, to)
+uint pixel;              // of the band
+uint first, begin, size; // its fragments are at(begin) and so on, up to `size`
+bool unknown;            // it met an unknown combination
+uint missing = 0;        // OVER_FRAMES: stands for the first of them
+uvec2 before;            // the key in front of the cluster [from, to)
 uint from, to;
 float resume; // what is nearer is done with
 
@@ -93,6 +100,8 @@ fragment at(uint i)
 {
     return fragments[first + i];
 }
+
+#include "crossings.glsl"
 
 uvec2 step_of(fragment f)
 {
@@ -125,7 +134,7 @@ uint written; // spans
 
 void put_span(boundary enter, boundary leave)
 {
-    spans[first / 2 + pixel + written++] =
+    spans[first_span() + written++] =
         span_data(depth_of(enter.key), depth_of(leave.key), enter.leaf, enter.face, leave.leaf,
                   leave.face);
 }
@@ -177,7 +186,7 @@ void carry(uint end)
     pixel_state s;
     s.key[0] = before.x;
     s.key[1] = before.y;
-    s.resume = from < end ? at(from).key : frame.slab_end;
+    s.resume = from != end ? at(from).key : frame.slab_end;
     s.flags = solid ? PIXEL_SOLID : 0;
     s.entered_key = entered.key;
     s.entered_leaf = entered.leaf;
@@ -204,29 +213,29 @@ void finish()
 bool ends_thin(uvec2 key)
 {
     key.y &= SECONDARY;
-    return key != uvec2(0) && from < to && !thick(at(from), fragment(frame.end, 0, 0, 1));
+    return key != uvec2(0) && from != to && !thick(at(from), fragment(frame.end, 0, 0, 1));
 }
 
 // Takes the crossings up to the end of the slab. True: the first surface was met.
 bool walk(uvec2 key)
 {
-    uint ahead = 0, i = 0;
+    uint ahead = 0, i = begin;
 #ifdef ARRAY
     for (int k = 0; k < inside.length(); k++)
         inside[k] = 0;
 #endif
-    from = 0;
+    from = begin;
     before = key;
-    for (;; i++) {
+    for (;; i = next(i)) {
         // Behind the crossings of the slab others may follow, further away than its end.
-        bool over = i >= size || ahead >= frame.ahead;
+        bool over = i == size || ahead >= frame.ahead;
         fragment f = fragment(frame.slab_end, 0, 0, 0);
         if (!over)
             f = at(i);
-        else if (frame.slab_last == 0 && (unknown || i < size))
+        else if (frame.slab_last == 0 && (unknown || i != size))
             break;
         bool last = over && frame.slab_last != 0;
-        if (last || (i > from && thick(at(from), f))) {
+        if (last || (i != from && thick(at(from), f))) {
             to = i;
             bool now = is_solid(key, SUBSET_ALL, 0);
             if (last && now && ends_thin(key)) // nothing begins there any more
@@ -262,8 +271,6 @@ void main()
     pixel = frame.pending != 0 ? pending[i] : i;
     if (pixel == NO_PIXEL)
         return;
-    first = offsets[pixel];
-    size = offsets[pixel + 1] - first;
     pixel_state s = pixel_state(uint[2](0, 0), 0, 0, 0, SURFACE_NO_LEAF, SURFACE_CAP_FACE);
     if (frame.slab_first == 0)
         s = states[pixel];
@@ -276,16 +283,11 @@ void main()
     if ((s.flags & PIXEL_DONE) != 0)
         return;
     resume = frame.slab_first != 0 ? -BEYOND : s.resume;
-#ifndef CARRY
-    if (frame.pending == 0) {
-        sort();
-        if (frame.windings != 0 && settle_windings())
-            sort();
-        drop_nothings();
-    }
+#ifdef CARRY
+    find_list(false);
+#else
+    find_list(frame.pending == 0);
 #endif
-    while (size > 0 && at(size - 1).key == BEYOND)
-        size--;
 
     unknown = false;
     uvec2 key = uvec2(s.key[0], s.key[1]);

@@ -24,6 +24,7 @@
 #define BIND_STATES    12 // struct pixel_state, per pixel of the band
 #define BIND_COUNTERS  13 // struct counters
 #define BIND_OFFSETS   14 // uint, per pixel of the band and one more: its first fragment
+#define BIND_LINKS     14 // uint: linked lists of fragments, see crossings.glsl
 #define BIND_OUTPUT    15 // uint[3] per pixel: depth, leaf, face; or spans
 #define BIND_VALUES    2  // uint[4], per leaf: value, class, leaf flags      (resolve)
 #define BIND_PENDING   7  // uint: pixels to be walked                        (resolve)
@@ -49,6 +50,7 @@
 #define GRID_BITS       18
 #define COORDINATE_BITS 29
 #define STEEP_LEAST     1e-3 // faces less steep than this count as that steep
+#define CROSSINGS_MOST  0xf0000000u // in lists that are linked, as far as they can be counted
 #define AHEAD           64   // clusters behind an unknown combination that are recorded as well
 #define AHEAD_FRAMES    16   // the same where discovery goes on over frames, as in the paper
 
@@ -96,6 +98,7 @@ struct frame_data {
     uint slab_first, slab_last;
     uint pending; // pixels to be walked; 0: all of the band
     uint large_most, miss_most; // room for pieces; for words of misses
+    uint crossings_most;        // room for crossings in lists that are linked
     uint windings;              // there are leaves with LEAF_WINDING
     uint claim_mask;            // number of claims, a power of two, less one
     uint ahead;                 // AHEAD or less

@@ -33,21 +33,23 @@ void put_settled(uint i, fragment f)
     fragments[first + i] = f;
 }
 
-// Leaves the crossings of a leaf [begin, end) that lead from or to the winding number 0; the others
-// go BEYOND. From `closed` on they are sheets, which end in the fragments in front of `spare`.
-void rebuild(uint begin, uint end, uint closed, inout uint spare)
+// Leaves the crossings of a leaf from `from` to `to` that lead from or to the winding number 0; the
+// others go BEYOND. From `open` on they are sheets, which end in the fragments from `spare` on.
+void rebuild(uint from, uint to, uint open, inout uint spare)
 {
-    uint leaf = at(begin).leaf >> 1, back = 0;
+    uint leaf = at(from).leaf >> 1, back = from;
+    bool closed = true;
     float last = -BEYOND; // end of the sheet before
     int winding = 0;
-    for (uint i = begin; i < end; i++) {
+    for (uint i = from; i != to; i = next(i)) {
         fragment f = at(i);
+        closed = closed && i != open;
         if (f.leaf >> 1 != leaf)
             continue;
         bool outside = winding == 0;
         winding += turn_of(f);
-        f.leaf = leaf << 1 | uint(i < closed && winding == 0);
-        if (i < closed) {
+        f.leaf = leaf << 1 | uint(closed && winding == 0);
+        if (closed) {
             if (!outside && winding != 0)
                 f.key = BEYOND;
             put_settled(i, f);
@@ -57,24 +59,26 @@ void rebuild(uint begin, uint end, uint closed, inout uint spare)
         other.leaf |= FRAGMENT_LEAVES;
         other.key = sheet_end(f);
         bool joined = last >= f.key; // sheets that touch are one
-        if (!joined && spare > end)
-            back = --spare;
-        else
+        if (!joined && spare != size) {
+            back = spare;
+            spare = next(spare);
+        } else {
             f.key = BEYOND;
+        }
         put_settled(i, f);
-        if (back > 0)
+        if (back != from)
             put_settled(back, other);
         last = other.key;
     }
 }
 
-// Settles the crossings of the leaf that begin at `begin`. True: they have changed.
-bool settle(uint begin, uint end, inout uint spare)
+// Settles the crossings of the leaf that begin at `from`. True: they have changed.
+bool settle(uint from, uint to, inout uint spare)
 {
-    uint leaf = at(begin).leaf >> 1, closed = begin; // behind what leads back to 0 for good
+    uint leaf = at(from).leaf >> 1, open = from; // behind what leads back to 0 for good
     int winding = 0;
     bool simple = true;
-    for (uint i = begin; i < end; i++) {
+    for (uint i = from; i != to; i = next(i)) {
         fragment f = at(i);
         if (f.leaf >> 1 != leaf)
             continue;
@@ -82,25 +86,26 @@ bool settle(uint begin, uint end, inout uint spare)
         winding += turn_of(f);
         simple = simple && (winding == 0 || winding == 1) && in_range(f.key);
         if (winding == 0)
-            closed = i + 1;
+            open = next(i);
     }
     if (winding != 0 && frame.slab_first != 0)
         atomicAdd(count.open, 1);
     if (simple && winding == 0)
         return false;
-    rebuild(begin, end, closed, spare);
+    rebuild(from, to, open, spare);
     return true;
 }
 
 // Of sorted crossings. True: they must be sorted again.
 bool settle_windings()
 {
-    uint end = size, spare = size;
+    uint to = begin;
     bool changed = false;
-    while (end > 0 && at(end - 1).key == BEYOND)
-        end--;
-    for (uint i = 0; i < end; i++)
+    while (to != size && at(to).key != BEYOND)
+        to = next(to);
+    uint spare = to;
+    for (uint i = begin; i != to; i = next(i))
         if ((at(i).triangle & FRAGMENT_WINDING) != 0)
-            changed = settle(i, end, spare) || changed;
+            changed = settle(i, to, spare) || changed;
     return changed;
 }

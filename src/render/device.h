@@ -56,6 +56,7 @@ struct render_settings {
     uint32_t slabs;   // gl: at least so many slabs of depth; 0: as many as the budget demands
     enum walk walk;
     enum discovery_scheme discovery;
+    bool linked; // gl: crossings in linked lists, in order at once; for the bench
     bool sparse; // where no leaf can be, outputs are neither written nor told
     // Per leaf of the body, or NULL: the crossings with it that are listed are added. By the cpu
     // device alone, see cost.h.

@@ -115,6 +115,23 @@ static void edits_leave_meshes_where_they_are(void **state)
     solid_store_delete(other);
 }
 
+static void linked_lists_are_neither_counted_nor_written(void **state)
+{
+    struct stage s;
+    struct render_stats stats;
+    struct rays rays = rays_from_above(20);
+    stage_make(&s, "cube(size = [8, 8, 2], center = true);");
+    device_delete(s.device);
+    s.device = *state;
+    s.settings.linked = true;
+    device_spans(s.device, s.model.bodies, &rays, &s.settings, sink, NULL, &stats);
+    assert_non_null(pass_of(&stats, "insert"));
+    assert_null(pass_of(&stats, "count"));
+    assert_null(pass_of(&stats, "scatter"));
+    s.device = NULL;
+    stage_free(&s);
+}
+
 int main(void)
 {
     struct error err;
@@ -126,6 +143,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_prestate(edits_leave_meshes_where_they_are, device),
         cmocka_unit_test_prestate(frames_tell_their_passes, device),
+        cmocka_unit_test_prestate(linked_lists_are_neither_counted_nor_written, device),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     device_delete(device);

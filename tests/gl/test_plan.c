@@ -5,7 +5,7 @@
 #include "unit.h"
 
 // What all buffers of a plan hold at most.
-static size_t bytes_of(const struct gl_plan *p, bool spans)
+static size_t bytes_of(const struct gl_plan *p, bool spans, bool linked)
 {
     size_t pixels = (size_t)p->rows * (size_t)p->columns;
     size_t bytes = sizeof(struct frame_data) + sizeof(struct counters) + BINS * 4 + p->staging;
@@ -14,7 +14,7 @@ static size_t bytes_of(const struct gl_plan *p, bool spans)
     bytes += spans ? (pixels + p->fragments / 2) * sizeof(struct span_data) : pixels * 12;
     for (size_t n = p->numbers; n > 1; bytes += n * 4)
         n = (n + SCAN_BLOCK - 1) / SCAN_BLOCK;
-    return bytes + p->fragments * sizeof(struct fragment);
+    return bytes + p->fragments * (sizeof(struct fragment) + (linked ? 4 : 0));
 }
 
 static void plans_stay_within_their_budget(void **state)
@@ -23,12 +23,14 @@ static void plans_stay_within_their_budget(void **state)
     static const int sizes[][2] = {{1, 1}, {1, 5000}, {1024, 1024}, {8192, 8192}, {2000000, 2}};
     struct error err;
     for (size_t budget = GL_MEMORY_LEAST; budget < (size_t)1 << 36; budget += budget / 7)
-        for (size_t i = 0; i < 2 * sizeof sizes / sizeof sizes[0]; i++) {
+        for (size_t i = 0; i < 4 * sizeof sizes / sizeof sizes[0]; i++) {
             struct gl_plan p;
-            const int *size = sizes[i / 2];
+            const int *size = sizes[i / 4];
+            bool spans = i % 2, linked = i / 2 % 2;
             size_t storage = (size_t)128 << 20;
-            assert_true(gl_plan_make(&p, budget, storage, size[0], size[1], 999, i % 2, &err));
-            assert_in_range(bytes_of(&p, i % 2), 1, budget);
+            assert_true(
+                gl_plan_make(&p, budget, storage, size[0], size[1], 999, spans, linked, &err));
+            assert_in_range(bytes_of(&p, spans, linked), 1, budget);
             assert_in_range(p.columns, 1, size[0]);
             assert_in_range(p.rows, 1, p.columns < size[0] ? 1 : size[1]);
             assert_in_range(p.fragments, budget / 100 < 1000000 ? budget / 100 : 1000000,
@@ -44,10 +46,10 @@ static void budgets_too_small_are_refused(void **state)
     (void)state;
     struct error err;
     struct gl_plan p = {.rows = 77};
-    assert_false(gl_plan_make(&p, GL_MEMORY_LEAST - 1, SIZE_MAX, 10, 10, 1, false, &err));
+    assert_false(gl_plan_make(&p, GL_MEMORY_LEAST - 1, SIZE_MAX, 10, 10, 1, false, false, &err));
     assert_string_equal(err.text, "65535 bytes of memory are too few for the gl device");
-    assert_false(gl_plan_make(&p, 1, SIZE_MAX, 10, 10, 1, true, &err));
-    assert_false(gl_plan_make(&p, GL_MEMORY_LEAST, SIZE_MAX, 10, 10, 10000000, true, &err));
+    assert_false(gl_plan_make(&p, 1, SIZE_MAX, 10, 10, 1, true, false, &err));
+    assert_false(gl_plan_make(&p, GL_MEMORY_LEAST, SIZE_MAX, 10, 10, 10000000, true, false, &err));
     assert_int_equal(p.rows, 77);
 }
 

@@ -48,7 +48,7 @@ static int parse_option(struct options *o, int left, char **argv)
 
 static bool known_mode(const struct options *o)
 {
-    static const char *const alone[] = {"random", "threads", "memory", "slabs", "walks"};
+    static const char *const alone[] = {"random", "threads", "memory", "slabs", "walks", "lists"};
     static const char *const agree[] = {"random", "broken"};
     const char *const *modes = o->agree ? agree : alone;
     for (size_t i = 0; i < (o->agree ? array_count(agree) : array_count(alone)); i++)

@@ -2,7 +2,7 @@
 //
 //   test_oracle random [--count N] [--seed N] [--threads N]   random trees, pixel by pixel
 //   test_oracle random --seed N --pixel X Y                   one pixel, with the fewest leaves
-//   test_oracle threads | memory | slabs | walks              one picture whatever the settings
+//   test_oracle threads | memory | slabs | walks | lists      one picture whatever the settings
 //   test_oracle FILE.csg WIDTH HEIGHT [--pixel X Y]           a file from several sides
 //   test_oracle agree random [--count N] ...                  two ways to draw, not the oracle
 //   test_oracle agree broken [--count N] ...                  of meshes that are open or inside out
@@ -14,6 +14,7 @@
 #include "agree_runs.h"
 #include "base/mem.h"
 #include "base/parallel.h"
+#include "broken.h"
 #include "report.h"
 #include "sides.h"
 
@@ -240,6 +241,8 @@ static int run_same(const struct options *options, const struct render_settings 
         struct random_scene scene;
         struct subject subject;
         random_scene_make(&scene, i % 8 == 7 ? 399 + 400 * (i / 8) : i);
+        if (i % 2 && !strcmp(options->mode, "lists"))
+            broken_scene(&scene, i);
         enlarge(&scene.rays, times);
         subject_make(&subject, &scene);
         struct picture first = {0}, other;
@@ -269,6 +272,11 @@ static int run_same(const struct options *options, const struct render_settings 
         picture_free(&first);
         subject_free(&subject);
         random_scene_free(&scene);
+    }
+    struct error why;
+    if (device_failed(device, &why)) {
+        printf("the device has failed: %s\n", why.text);
+        different++;
     }
     device_delete(device);
     printf("%s: %u trees, %d differences, at most %zu bytes\n", options->mode, count, different,
@@ -315,6 +323,8 @@ int main(int argc, char **argv)
                                                        {.memory = 0}};
     static const struct render_settings slabs[] = {
         {.slabs = 0}, {.slabs = 1}, {.slabs = 3}, {.slabs = 5}, {.slabs = 17, .memory = 2 << 20}};
+    static const struct render_settings lists[] = {
+        {0}, {.linked = true}, {.linked = true, .slabs = 3}, {.linked = true, .memory = 64 << 10}};
     static const struct render_settings walks[] = {{.walk = WALK_HASH}, {.walk = WALK_ARRAY}};
     struct options options = {0};
     if (!options_parse(&options, argc, argv))
@@ -327,6 +337,8 @@ int main(int argc, char **argv)
         return run_same(&options, threads, array_count(threads), 40, 8);
     if (!strcmp(options.mode, "slabs"))
         return run_same(&options, slabs, array_count(slabs), 7, 2);
+    if (!strcmp(options.mode, "lists"))
+        return run_same(&options, lists, array_count(lists), 12, 1);
     if (!strcmp(options.mode, "memory") && options.gl)
         return run_same(&options, gl_memory, array_count(gl_memory), 7, 3);
     if (!strcmp(options.mode, "memory"))

@@ -117,8 +117,9 @@ static bool begin(struct gl_device *d, struct gl_drawing *g)
     struct gl_plan plan;
     if (!countable(g) ||
         !gl_plan_make(&plan, budget, gl_context_facts(d->context)->storage_size, g->rays->width,
-                      g->rays->height, g->body->leaf_count, g->spans, g->err))
+                      g->rays->height, g->body->leaf_count, g->spans, g->settings->linked, g->err))
         return false;
+    d->work.linked = g->settings->linked;
     gl_work_begin(&d->work, &plan, budget, g->spans);
     d->model.peak = d->model.used;
     gl_frame_init(&g->frame, g->body, g->rays, g->settings);

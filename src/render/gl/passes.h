@@ -19,7 +19,7 @@ struct gl_work {
     struct gl_buffer frame, counters;
     struct gl_buffer views, starts, counts; // per leaf; counts of a select serve the scan only
     struct gl_buffer large;
-    struct gl_buffer pixel_counts, offsets, states, output, span_counts;
+    struct gl_buffer pixel_counts, offsets, links, states, output, span_counts;
     struct gl_buffer pending[2], misses, claims;
     struct gl_buffer fragments, bins;
     uint32_t crossings;       // of the band and slab, all rays together
@@ -28,6 +28,7 @@ struct gl_work {
     struct gl_timers timers;      // of the passes of a picture
     const struct gl_array *array; // walks go by it; NULL: by the table
     struct gl_learner *learner;   // unknown combinations go there; NULL: rays wait for them
+    bool linked;                  // lists are, by their offsets
 };
 
 void gl_work_free(struct gl_work *w);
@@ -47,8 +48,9 @@ bool gl_work_prepare(struct gl_work *w, const struct gl_scene *scene, const stru
 // How each leaf shows in the picture.
 bool gl_work_views(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
                    struct error *err);
-// Counts the crossings of a band and slab; *pieces: of large triangles. When these are more than
-// f->large_most the count means nothing. UINT32_MAX: so many or more.
+// Counts the crossings of a band and slab, and links them if lists are; *pieces: of large
+// triangles. When these are more than f->large_most the count means nothing. UINT32_MAX: so many or
+// more.
 bool gl_work_count(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
                    uint32_t *fragments, uint32_t *pieces, struct error *err);
 // Room for so many pieces of large triangles.
@@ -56,7 +58,7 @@ bool gl_work_pieces(struct gl_work *w, uint32_t pieces, struct error *err);
 // How many of the crossings that were counted lie in each of BINS parts of the keys [from, to].
 bool gl_work_histogram(struct gl_work *w, const struct gl_scene *scene, struct frame_data *f,
                        float from, float to, uint32_t bins[BINS], struct error *err);
-// Makes the crossings that were counted.
+// Makes the crossings that were counted, unless they are linked, and room for what comes of them.
 bool gl_work_scatter(struct gl_work *w, const struct gl_scene *scene, const struct frame_data *f,
                      uint32_t fragments, bool spans, struct error *err);
 // Walks the rays until no combination is unknown. *stuck: rays of w->pending[0] that cannot go on,

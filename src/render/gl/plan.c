@@ -26,7 +26,7 @@ static size_t scan_bytes(size_t n)
 }
 
 bool gl_plan_make(struct gl_plan *out, size_t budget, size_t storage, int width, int height,
-                  uint32_t leaves, bool spans, struct error *err)
+                  uint32_t leaves, bool spans, bool linked, struct error *err)
 {
     struct gl_plan p = {.claims = CLAIMS_MOST};
     size_t misses = least(budget / 16, MISSES_MOST) / 4 * 4;
@@ -50,8 +50,8 @@ bool gl_plan_make(struct gl_plan *out, size_t budget, size_t storage, int width,
         return false;
     }
     size_t rest = budget - others, places = storage / sizeof(struct span_data);
-    size_t fragments = least(rest / (spans ? FRAGMENT_SPANS : sizeof(struct fragment)),
-                             storage / sizeof(struct fragment));
+    size_t one = (spans ? FRAGMENT_SPANS : sizeof(struct fragment)) + (linked ? 4 : 0);
+    size_t fragments = least(rest / one, storage / sizeof(struct fragment));
     if (spans)
         fragments = least(fragments, 2 * (places - pixels));
     p.fragments =

@@ -11,7 +11,7 @@
 //   1/64  claims, at most 256 KB
 //   1/8   pieces of large triangles
 //   1/4   pixels of a band, 60 bytes each, or 72 for spans
-//   the rest: crossings of a slab, 16 bytes each, or 28 for spans
+//   the rest: crossings of a slab, 16 bytes each, or 28 for spans; 4 more when lists are linked
 // None is larger than what a shader can use. What has one entry per leaf or per combination is as
 // large as the model and counts as such.
 struct gl_plan {
@@ -25,4 +25,4 @@ enum { GL_MEMORY_LEAST = 64 << 10 }; // of a budget
 
 // `storage`: bytes of the largest buffer that a shader can use. False when the budget is too small.
 bool gl_plan_make(struct gl_plan *out, size_t budget, size_t storage, int width, int height,
-                  uint32_t leaves, bool spans, struct error *err);
+                  uint32_t leaves, bool spans, bool linked, struct error *err);

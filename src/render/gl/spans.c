@@ -6,37 +6,46 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Those that were written stand at the places of the crossings that made them.
-static void compact(struct gl_span_part *p, const uint32_t *offsets, const uint32_t *counts,
-                    struct span *spans, size_t pixels)
+// Where the spans of a pixel stand: at the places of the crossings that made them, or where the
+// shader has put them.
+static size_t place_of(const struct gl_work *w, const uint32_t *offsets, size_t i)
+{
+    return w->linked ? offsets[i] : offsets[i] / 2 + i;
+}
+
+static void compact(struct gl_span_part *p, const struct gl_work *w, const uint32_t *offsets,
+                    const uint32_t *counts, const struct span *spans, size_t pixels)
 {
     uint32_t total = 0;
+    for (size_t i = 0; i < pixels; i++)
+        total += counts[i];
+    p->spans = mem_alloc((total + 1) * sizeof *spans);
+    total = 0;
     for (size_t i = 0; i < pixels; i++) {
         p->first[i] = total;
-        memmove(spans + total, spans + offsets[i] / 2 + i, counts[i] * sizeof *spans);
+        memcpy(p->spans + total, spans + place_of(w, offsets, i), counts[i] * sizeof *spans);
         total += counts[i];
     }
     p->first[pixels] = total;
-    p->spans = mem_alloc((total + 1) * sizeof *spans);
-    memcpy(p->spans, spans, total * sizeof *spans);
 }
 
 bool gl_spans_add(struct gl_spans *s, struct gl_work *w, const struct frame_data *f,
                   struct error *err)
 {
     size_t pixels = (size_t)f->columns * (size_t)f->rows;
-    uint32_t *offsets = mem_alloc((pixels + 1) * 4), *counts = mem_alloc((pixels + 1) * 4);
+    uint32_t *offsets = mem_alloc(pixels * 4), *counts = mem_alloc(pixels * 4);
     size_t size = (w->crossings / 2 + pixels) * sizeof(struct span);
     struct span *spans = mem_alloc(size);
-    const struct gl_part parts[] = {{&w->offsets, 0, (pixels + 1) * 4, offsets},
-                                    {&w->span_counts, 0, pixels * 4, counts},
-                                    {&w->output, 0, size, spans}};
+    const struct gl_part parts[] = {
+        {w->linked ? &w->links : &w->offsets, w->linked ? pixels * 4 : 0, pixels * 4, offsets},
+        {&w->span_counts, 0, pixels * 4, counts},
+        {&w->output, 0, size, spans}};
     bool fine = gl_work_read(w, parts, array_count(parts), err);
     if (fine) {
         array_reserve(&s->parts, &s->capacity, s->count + 1);
         struct gl_span_part *p = &s->parts[s->count++];
         *p = (struct gl_span_part){f->column, f->columns, mem_alloc((pixels + 1) * 4), NULL};
-        compact(p, offsets, counts, spans, pixels);
+        compact(p, w, offsets, counts, spans, pixels);
     }
     free(offsets);
     free(counts);
