@@ -7,9 +7,9 @@
 #include "stage.h"
 #include "turn.h"
 
-// With more, a frame of the array method takes minutes: leaves, and with OpenGL leaves times the ms
+// With more, a frame of the array method takes minutes: values, and with OpenGL values times the ms
 // of a frame by the hash.
-enum { ARRAY_LEAVES = 1000, GL_ARRAY_EFFORT = 300000 };
+enum { ARRAY_VALUES = 1000, GL_ARRAY_EFFORT = 300000 };
 
 // What is being measured.
 struct run {
@@ -265,7 +265,7 @@ static bool measure_gl(struct run *s, struct error *err)
     }
     device_delete(s->device);
     if (ok && out->measured &&
-        s->result->leaves * samples_median(&out->spans.frames) < GL_ARRAY_EFFORT)
+        s->result->classes * samples_median(&out->spans.frames) < GL_ARRAY_EFFORT)
         ok = measure_array_with_gl(s, err);
     return ok;
 }
@@ -300,7 +300,7 @@ bool measure_scene(struct result *out, const char *csg, const struct measure_opt
         measure_empty(&s);
         measure_batch(&s, out->batch);
         measure_walk(&s, WALK_BY_HASH, WALK_HASH);
-        if (out->leaves <= ARRAY_LEAVES)
+        if (out->classes <= ARRAY_VALUES)
             measure_walk(&s, WALK_BY_ARRAY, WALK_ARRAY);
     }
     out->peak_bytes = s.stage.peak_bytes;

@@ -76,7 +76,8 @@
 #define NODE_LIMITS 1u
 #define NODE_CUTS   2u
 #define NODE_ROOT   3u
-#define NODE_INNER  0xffffffffu // in place of a leaf
+#define NODE_INNER  0xffffffffu // in place of a class
+#define NODE_WORDS  3
 
 #define SURFACE_NO_LEAF  0xffffffffu
 #define SURFACE_CAP_FACE 0xffffffffu

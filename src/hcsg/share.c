@@ -118,6 +118,36 @@ bool sharing_equal(const struct sharing *s, const struct expr *e, const struct s
     return equal;
 }
 
+// Of the operands of each operator those are left that are not members of a class that has been.
+void sharing_expr(struct expr *out, const struct expr *e, const struct sharing *s)
+{
+    struct expr_token *tokens = mem_alloc((2 * (size_t)e->node_count + 1) * sizeof *tokens);
+    bool *seen = mem_zalloc(s->class_count + 1), *left = mem_alloc(e->node_count + 1);
+    size_t count = e->node_count ? expr_postfix(tokens, e, e->root, NULL) : 0, kept = 0, depth = 0;
+    for (size_t i = 0; i < count; i++) {
+        struct expr_token t = tokens[i];
+        bool stays = true;
+        if (t.op == EXPR_LEAF) {
+            t.arg = s->class_of_leaf[t.arg];
+            stays = !seen[t.arg];
+            seen[t.arg] = true;
+        } else {
+            depth -= t.arg;
+            uint32_t operands = 0;
+            for (uint32_t k = 0; k < t.arg; k++)
+                operands += left[depth + k];
+            t.arg = operands;
+        }
+        left[depth++] = stays;
+        if (stays)
+            tokens[kept++] = t;
+    }
+    expr_build(out, tokens, kept, s->class_count);
+    free(tokens);
+    free(seen);
+    free(left);
+}
+
 void sharing_free(struct sharing *s)
 {
     free(s->class_of_leaf);

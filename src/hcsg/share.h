@@ -38,4 +38,7 @@ void sharing_inherit(struct sharing *s, uint32_t leaf_count, const struct sharin
 // The leaves behind them may differ.
 bool sharing_equal(const struct sharing *s, const struct expr *e, const struct sharing *other,
                    const struct expr *other_e);
+// The expression over classes in place of leaves, for the array method (bench): the members of a
+// class stand in one node, where its first one stands.
+void sharing_expr(struct expr *out, const struct expr *e, const struct sharing *s);
 void sharing_free(struct sharing *s); // leaves {0}

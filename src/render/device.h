@@ -41,7 +41,7 @@ struct span_block {
 enum walk {
     WALK_AUTO,
     WALK_HASH,  // first surfaces too by listed crossings
-    WALK_ARRAY, // the same, with the whole expression for each interval; for the bench
+    WALK_ARRAY, // the same, with the expression over classes for each interval; for the bench
 };
 
 enum discovery_scheme {

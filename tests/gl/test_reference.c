@@ -36,8 +36,8 @@ static const struct {
     {"resolve", "SURFACE OVER_FRAMES CARRY"},
     {"resolve", "SPANS OVER_FRAMES CARRY"},
     {"reduce", ""},
-    {"resolve", "SURFACE ARRAY LEAVES=9 NODES=17"},
-    {"resolve", "SPANS ARRAY LEAVES=9 NODES=17"},
+    {"resolve", "SURFACE ARRAY VALUES=9 NODES=17"},
+    {"resolve", "SPANS ARRAY VALUES=9 NODES=17"},
 };
 
 // False with its first complaint in *err.
@@ -84,7 +84,7 @@ static void it_can_refuse(void **state)
 {
     (void)state;
     struct error err;
-    assert_false(accepted("resolve", "SURFACE ARRAY LEAVES=none NODES=17", &err));
+    assert_false(accepted("resolve", "SURFACE ARRAY VALUES=none NODES=17", &err));
     assert_non_null(strstr(err.text, "shaders/array.glsl:"));
 }
 

@@ -153,6 +153,46 @@ static void random_trees_are_consistent(void **state)
     }
 }
 
+static void expression_over_classes(void **state)
+{
+    (void)state;
+    // (0 | 1 | (2 * 3 - (4 | 5))) with convex leaves: three classes in four nodes and the root.
+    const struct expr_token t[] = {{EXPR_LEAF, 0}, {EXPR_LEAF, 1},         {EXPR_LEAF, 2},
+                                   {EXPR_LEAF, 3}, {EXPR_INTERSECTION, 2}, {EXPR_LEAF, 4},
+                                   {EXPR_LEAF, 5}, {EXPR_UNION, 2},        {EXPR_DIFFERENCE, 2},
+                                   {EXPR_UNION, 3}};
+    struct given g = build(t, array_count(t), 6, all_convex, true);
+    struct expr e;
+    sharing_expr(&e, &g.e, &g.s);
+    assert_int_equal(g.s.class_count, 3);
+    assert_int_equal(e.leaf_count, 3);
+    assert_int_equal(e.node_count, 5);
+    const struct expr_node *root = &e.nodes[e.root];
+    assert_int_equal(root->op, EXPR_UNION);
+    assert_int_equal(root->count, 2);
+    const struct expr_node *any = &e.nodes[e.kids[root->first]];
+    const struct expr_node *part = &e.nodes[e.kids[root->first + 1]];
+    assert_int_equal(any->leaf, g.s.class_of_leaf[0]);
+    assert_int_equal(part->op, EXPR_INTERSECTION);
+    assert_int_equal(part->count, 1);
+    assert_int_equal(e.nodes[e.kids[part->first]].leaf, g.s.class_of_leaf[3]);
+    assert_int_equal(e.nodes[part->minus].leaf, g.s.class_of_leaf[5]);
+    expr_free(&e);
+    release(&g);
+
+    // Nothing shared: the same expression, but for the numbers.
+    g = build(t, array_count(t), 6, all_convex, false);
+    sharing_expr(&e, &g.e, &g.s);
+    assert_int_equal(e.node_count, g.e.node_count);
+    for (uint32_t i = 0; i < e.node_count; i++) {
+        assert_int_equal(e.nodes[i].op, g.e.nodes[i].op);
+        if (e.nodes[i].op == EXPR_LEAF)
+            assert_int_equal(e.nodes[i].leaf, g.s.class_of_leaf[g.e.nodes[i].leaf]);
+    }
+    expr_free(&e);
+    release(&g);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -163,6 +203,7 @@ int main(void)
         cmocka_unit_test(no_sharing_when_not_asked),
         cmocka_unit_test(dropped_leaves_have_no_class),
         cmocka_unit_test(random_trees_are_consistent),
+        cmocka_unit_test(expression_over_classes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,7 +26,19 @@ void combination_free(struct combination *s)
     free(s->base);
     free(s->inside);
     free(s->solid);
+    expr_free(&s->counted);
     *s = (struct combination){0};
+}
+
+static void array_begin(struct combination *s, const struct body *body)
+{
+    uint64_t identity = discovery_identity(body->table);
+    if (s->counted_identity != identity) {
+        expr_free(&s->counted);
+        sharing_expr(&s->counted, &body->expr, &body->sharing);
+        s->counted_identity = identity;
+    }
+    memset(s->inside, 0, body->sharing.class_count * sizeof *s->inside);
 }
 
 void combination_begin(struct combination *s, struct tile *t)
@@ -37,7 +49,7 @@ void combination_begin(struct combination *s, struct tile *t)
     s->replayed = NULL;
     s->array = t->frame->settings->walk == WALK_ARRAY;
     if (s->array)
-        memset(s->inside, 0, t->frame->body->leaf_count * sizeof *s->inside);
+        array_begin(s, t->frame->body);
 }
 
 // Counts a crossing into the members, which stay sorted by class: mostly few, so a plain search.
@@ -104,15 +116,19 @@ bool combination_discover(struct combination *s, const crossing *items, uint32_t
            SET_SOLID;
 }
 
-// Lefebvre 2013: a counter per primitive, the whole expression for each interval. For the bench.
+// Lefebvre 2013: a counter per class, the whole expression over classes for each interval. For the
+// bench.
 bool combination_evaluate(struct combination *s)
 {
-    const struct expr *e = &s->t->frame->body->expr;
+    const struct expr *e = &s->counted;
+    const struct value_class *classes = s->t->frame->body->sharing.classes;
     bool *solid = s->solid;
     for (uint32_t i = 0; i < e->node_count; i++) {
         const struct expr_node *n = &e->nodes[i];
         if (n->op == EXPR_LEAF) {
-            solid[i] = s->inside[n->leaf] > 0;
+            const struct value_class *c = &classes[n->leaf];
+            int32_t inside = s->inside[n->leaf];
+            solid[i] = c->rule == CLASS_ALL ? inside == (int32_t)c->members : inside > 0;
             continue;
         }
         bool any = n->op == EXPR_UNION, value = !any;

@@ -26,8 +26,10 @@ struct combination {
 
     // the array method, in place of the key
     bool array;
-    int32_t *inside; // per leaf of the body
-    bool *solid;     // per node of the expression
+    uint64_t counted_identity; // of the body
+    struct expr counted;       // its expression over classes
+    int32_t *inside;           // per class
+    bool *solid;               // per node of `counted`
 };
 
 void combination_init(struct combination *s, struct tile_room room);
@@ -53,7 +55,7 @@ static inline void combination_step(struct combination *s, crossing c, bool back
     uint32_t id = (uint32_t)c, leaf = s->t->leaves[id >> 1].leaf;
     bool in = !(id & 1) != back;
     if (s->array) {
-        s->inside[leaf] += in ? 1 : -1;
+        s->inside[b->sharing.class_of_leaf[leaf]] += in ? 1 : -1;
         return;
     }
     uint64_t value = b->sharing.classes[b->sharing.class_of_leaf[leaf]].value;

@@ -31,22 +31,29 @@ static size_t room_for(size_t count)
 bool gl_array_upload(struct gl_array *a, struct gl_memory *memory, const struct body *body,
                      struct error *err)
 {
-    const struct expr *e = &body->expr;
-    size_t nodes = e->node_count ? e->node_count : 1, room = room_for(nodes), truth = room / 32;
-    uint32_t *words = mem_zalloc((truth + 2 * nodes) * sizeof *words);
-    words[truth] = NODE_INNER; // of the empty set
-    for (uint32_t i = 0; i < e->node_count; i++) {
-        const struct expr_node *n = &e->nodes[i];
+    const struct sharing *s = &body->sharing;
+    struct expr e;
+    sharing_expr(&e, &body->expr, s);
+    size_t nodes = e.node_count, room = room_for(nodes), truth = room / 32;
+    size_t size = (truth + 1 + NODE_WORDS * nodes + body->leaf_count) * sizeof(uint32_t);
+    uint32_t *words = mem_zalloc(size), *to = words + truth;
+    *to++ = e.node_count;
+    for (uint32_t i = 0; i < e.node_count; i++) {
+        const struct expr_node *n = &e.nodes[i];
+        const struct value_class *c = n->op == EXPR_LEAF ? &s->classes[n->leaf] : NULL;
         words[i / 32] |= (uint32_t)(n->op == EXPR_INTERSECTION) << i % 32;
-        words[truth + 2 * i] = n->op == EXPR_LEAF ? n->leaf : NODE_INNER;
-        words[truth + 2 * i + 1] = join_of(e, i);
+        *to++ = c ? n->leaf : NODE_INNER;
+        *to++ = c && c->rule == CLASS_ALL ? c->members : 0;
+        *to++ = join_of(&e, i);
     }
-    size_t size = (truth + 2 * nodes) * sizeof *words;
+    for (uint32_t i = 0; i < body->leaf_count; i++) // dropped ones are never crossed
+        *to++ = s->class_of_leaf[i];
+    expr_free(&e);
     bool fine = gl_buffer_fit(&a->nodes, memory, "nodes", size, err);
     if (fine)
         gl_buffer_write(&a->nodes, 0, words, size);
     free(words);
-    snprintf(a->defines, sizeof a->defines, "ARRAY LEAVES=%zu NODES=%zu",
-             room_for(body->leaf_count), room);
+    snprintf(a->defines, sizeof a->defines, "ARRAY VALUES=%zu NODES=%zu", room_for(s->class_count),
+             room);
     return fine;
 }
