@@ -216,6 +216,16 @@ bool ends_thin(uvec2 key)
     return key != uvec2(0) && from != to && !thick(at(from), fragment(frame.end, 0, 0, 1));
 }
 
+// Does a cluster begin at crossing i? All crossings at one depth belong to one cluster: the steepest
+// face there decides.
+bool begins(uint i)
+{
+    bool off = false;
+    for (float key = at(i).key; !off && i != size && at(i).key == key; i = next(i))
+        off = thick(at(from), at(i));
+    return off;
+}
+
 // Takes the crossings up to the end of the slab. True: the first surface was met.
 bool walk(uvec2 key)
 {
@@ -226,6 +236,7 @@ bool walk(uvec2 key)
 #endif
     from = begin;
     before = key;
+    float last_key = BEYOND;
     for (;; i = next(i)) {
         // Behind the crossings of the slab others may follow, further away than its end.
         bool over = i == size || ahead >= frame.ahead;
@@ -235,7 +246,7 @@ bool walk(uvec2 key)
         else if (frame.slab_last == 0 && (unknown || i != size))
             break;
         bool last = over && frame.slab_last != 0;
-        if (last || (i != from && thick(at(from), f))) {
+        if (last || (i != from && (over ? thick(at(from), f) : f.key > last_key && begins(i)))) {
             to = i;
             bool now = is_solid(key, SUBSET_ALL, 0);
             if (last && now && ends_thin(key)) // nothing begins there any more
@@ -251,6 +262,7 @@ bool walk(uvec2 key)
         }
         if (over)
             break;
+        last_key = f.key;
         key = key_add(key, step_of(f));
     }
     if (frame.slab_last != 0) {

@@ -195,6 +195,33 @@ static void nothing_thin_begins_where_rays_end(void **state)
     expect_end_of(BLOCK(-10, 10), SURFACE_NONE);
 }
 
+// Where rays of the first row leave a plate that is too thin to exist and enter a block, its face,
+// seen from the front, is as far away as the plate is thick: one depth, and not thin.
+static void what_is_at_one_depth_stays_together(void **state)
+{
+#define PLATE "multmatrix([[1,0,0,0],[0,1,0,0],[0,8,1,-40],[0,0,0,1]]) cube(size=[10,10,0.003]);"
+    static const char *const texts[] = {"union(){" PLATE BLOCK(-5, 5) "}",
+                                        "union(){" BLOCK(-5, 5) PLATE "}"};
+    (void)state;
+    for (uint32_t plate = 0; plate < 2; plate++) {
+        struct scene s;
+        scene_make(&s, texts[plate]);
+        for (int k = 0; k < 4 && devices[k / 2]; k++) {
+            float depth[PIXELS];
+            uint32_t leaf[PIXELS], face[PIXELS];
+            struct surface_image image = {SIDE, SIDE, depth, leaf, face};
+            struct rays rays = rays_down(0, true);
+            struct render_settings settings = {
+                .epsilon = 1e-3, .threads = 1, .walk = k % 2 ? WALK_HASH : WALK_AUTO};
+            device_first_surface(devices[k / 2], &s.model.bodies[0], &rays, &settings, &image, NULL,
+                                 NULL, NULL);
+            for (int i = 0; i < SIDE; i++)
+                assert_int_equal(leaf[i], plate);
+        }
+        scene_free(&s);
+    }
+}
+
 int main(void)
 {
     struct error err;
@@ -206,6 +233,7 @@ int main(void)
         cmocka_unit_test(what_is_cut_at_once_does_not_hide_others),
         cmocka_unit_test(of_several_that_turn_it_together_the_latest_shows),
         cmocka_unit_test(nothing_thin_begins_where_rays_end),
+        cmocka_unit_test(what_is_at_one_depth_stays_together),
     };
     devices[0] = cpu_device_new();
     devices[1] = gl_device_new(true, NULL, &err);

@@ -105,6 +105,19 @@ static bool thick(struct ray_walk *r, crossing a, crossing b)
            t->frame->settings->epsilon;
 }
 
+// Does a cluster begin at crossing i, behind the one that begins at `cluster`? All crossings at one
+// depth belong to one cluster: the steepest face there decides.
+static bool begins(struct ray_walk *r, uint32_t cluster, uint32_t i)
+{
+    float key = crossing_key(r->items[i]);
+    if (i == cluster || key <= crossing_key(r->items[i - 1]))
+        return false;
+    for (; i < r->count && crossing_key(r->items[i]) == key; i++)
+        if (thick(r, r->items[cluster], r->items[i]))
+            return true;
+    return false;
+}
+
 static struct boundary boundary_at(struct ray_walk *r, crossing c)
 {
     float steep;
@@ -166,7 +179,7 @@ static uint32_t walk_list(struct ray_walk *r, bool more, bool *over)
     uint32_t cluster = 0, i = 0;
     *over = false;
     for (; i < r->count && !is_end(r, r->items[i]); i++) {
-        if (i > cluster && thick(r, r->items[cluster], r->items[i])) {
+        if (begins(r, cluster, i)) {
             bool solid = combination_is_solid(r->combination, r->items, i);
             if (solid != r->solid && change(r, cluster, i, solid)) {
                 *over = true;
