@@ -24,34 +24,37 @@ struct live {
     struct device *device;
     struct picture picture;
     struct rays rays;
-    struct shown now;
+    struct shown *now;
 };
 
-static void build(struct shown *out, const struct csg_tree *tree, struct solid_store *store,
-                  const struct model *before)
+static struct shown *build(const struct csg_tree *tree, struct solid_store *store,
+                           const struct model *before)
 {
+    struct shown *out = mem_zalloc(sizeof *out);
     struct messages messages = {0};
     struct model_options options = MODEL_DEFAULTS;
     options.before = before;
     model_build(&out->model, tree, store, &options, &messages);
     shader_init(&out->shader, &out->model, scheme_list(&(uint32_t){0}));
     messages_free(&messages);
+    return out;
 }
 
 static void shown_free(struct shown *s)
 {
     shader_free(&s->shader);
     model_free(&s->model);
+    free(s);
 }
 
 static double draw(struct live *l, const struct measure_options *options,
                    struct render_stats *stats)
 {
-    struct render_settings settings = {.epsilon = model_epsilon(&l->now.model, -1),
+    struct render_settings settings = {.epsilon = model_epsilon(&l->now->model, -1),
                                        .threads = options->threads,
                                        .memory = (size_t)MEMORY_BUDGET << 20};
     double start = clock_seconds();
-    picture_draw(&l->picture, l->device, &l->now.shader, &l->rays, &settings, stats);
+    picture_draw(&l->picture, l->device, &l->now->shader, &l->rays, &settings, stats);
     return (clock_seconds() - start) * 1e3;
 }
 
@@ -89,23 +92,21 @@ static void measure_one(struct live *l, const struct measure_options *options,
                         struct edits_result *out)
 {
     struct csg_tree tree;
-    struct shown next;
     struct render_stats stats;
     double start = clock_seconds();
     edit_tree(l->edit, &tree);
     samples_add(&out->tree, (clock_seconds() - start) * 1e3);
     double parsed = clock_seconds();
-    build(&next, &tree, l->store, &l->now.model);
+    struct shown *before = l->now;
+    l->now = build(&tree, l->store, &before->model);
     samples_add(&out->model, (clock_seconds() - parsed) * 1e3);
-    struct shown before = l->now;
-    l->now = next;
     draw(l, options, &stats);
     double whole = (clock_seconds() - start) * 1e3, again = draw(l, options, &stats);
     samples_add(&out->whole, whole);
     samples_add(&out->steady, again);
     samples_add(&out->over_steady, whole / again);
     csg_free(&tree);
-    shown_free(&before);
+    shown_free(before);
 }
 
 bool edits_measure(struct result *out, const char *csg, const struct measure_options *options,
@@ -126,8 +127,8 @@ bool edits_measure(struct result *out, const char *csg, const struct measure_opt
     l.edit = edit_new(source);
     l.store = solid_store_new();
     l.device = cpu_device_new();
-    build(&l.now, &source->tree, l.store, NULL);
-    l.rays = turn_view(l.now.model.bounds, 0, (int)options->size);
+    l.now = build(&source->tree, l.store, NULL);
+    l.rays = turn_view(l.now->model.bounds, 0, (int)options->size);
     struct render_stats stats;
     draw(&l, options, &stats);
     double spent = 0;
@@ -138,7 +139,7 @@ bool edits_measure(struct result *out, const char *csg, const struct measure_opt
         measure_one(&l, options, &out->edits);
         spent += clock_seconds() - start;
     }
-    shown_free(&l.now);
+    shown_free(l.now);
     picture_free(&l.picture);
     device_delete(l.device);
     solid_store_delete(l.store);
