@@ -1,7 +1,8 @@
 // print.c - the tree as OpenSCAD 2021.01 exports it.
 #include "csg/csg.h"
 
-#include <locale.h>
+#include "base/locale.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -290,7 +291,7 @@ char *csg_print(const struct csg_tree *t, size_t *size)
     enum { DEEPEST_INDENTED = 10000 };
     struct printer p = {0};
     char *text = NULL;
-    locale_t c = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0), before = uselocale(c);
+    struct own_locale own = locale_enter();
 
     p.out = open_memstream(&text, size);
     if (!p.out)
@@ -300,8 +301,7 @@ char *csg_print(const struct csg_tree *t, size_t *size)
     putc_unlocked('\n', p.out);
     if (fclose(p.out) != 0)
         abort();
-    uselocale(before);
-    freelocale(c);
+    locale_leave(&own);
     free(p.values);
     free(p.nodes);
     return text;

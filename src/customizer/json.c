@@ -1,6 +1,6 @@
 // json.c - all parameters as JSON, as newer versions of OpenSCAD list them.
+#include "base/locale.h"
 #include "customizer/literal.h"
-#include "customizer/locale.h"
 #include "customizer/parameters.h"
 
 #include <cjson/cJSON.h>

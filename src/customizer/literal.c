@@ -1,6 +1,8 @@
 // literal.c - constant values of OpenSCAD's language, and their text.
 #include "customizer/literal.h"
 
+#include "base/number.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,13 +23,10 @@ void words_say(struct words *out, const char *words)
 
 void words_number(struct words *out, double number, int digits)
 {
-    char text[40];
-    int shortest = digits < 15 ? digits : 15;
+    char text[NUMBER_TEXT];
     if (number == 0)
         number = 0; // no sign
-    do
-        snprintf(text, sizeof text, "%.*g", shortest, number);
-    while (++shortest <= digits && strtod(text, NULL) != number);
+    number_shortest(text, number, digits < 15 ? digits : 15, digits);
     char *e = strchr(text, 'e');
     if (!e) {
         words_say(out, text);

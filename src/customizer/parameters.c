@@ -1,10 +1,10 @@
 // parameters.c - what the widgets of OpenSCAD's customizer are made from.
 #include "customizer/parameters.h"
 
+#include "base/locale.h"
 #include "customizer/annotation.h"
 #include "customizer/assignments.h"
 #include "customizer/index.h"
-#include "customizer/locale.h"
 #include "customizer/value.h"
 
 #include <math.h>

@@ -2,9 +2,9 @@
 #include "customizer/sets.h"
 
 #include "base/file.h"
+#include "base/locale.h"
 #include "customizer/index.h"
 #include "customizer/literal.h"
-#include "customizer/locale.h"
 
 #include <cjson/cJSON.h>
 #include <errno.h>

@@ -1,5 +1,5 @@
 // texts.c - values of parameters as flags for a shell and as lines of source.
-#include "customizer/locale.h"
+#include "base/locale.h"
 #include "customizer/value.h"
 
 #include <stdlib.h>

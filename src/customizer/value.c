@@ -1,9 +1,9 @@
 // value.c - values of parameters: from literals and back to text.
 #include "customizer/value.h"
 
+#include "base/locale.h"
 #include "customizer/annotation.h"
 #include "customizer/assignments.h"
-#include "customizer/locale.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -34,7 +34,3 @@ struct edit {
     uint32_t mark_count, mark_room;
     uint64_t version;
 };
-
-// Shortest decimal text that reads back as the number; returns its length.
-enum { NUMBER_TEXT = 32 };
-int change_number_text(char out[NUMBER_TEXT], double number);

@@ -1,24 +1,10 @@
 // version.c - the tree and the text of a file with its changes.
+#include "base/number.h"
 #include "csg/locate.h"
 #include "edit/change.h"
 
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
-
-int change_number_text(char out[NUMBER_TEXT], double number)
-{
-    locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(c);
-    int length = 0;
-    for (int digits = 6; digits <= 17; digits++) {
-        length = snprintf(out, NUMBER_TEXT, "%.*g", digits, number);
-        if (strtod(out, NULL) == number)
-            break;
-    }
-    uselocale(before);
-    freelocale(c);
-    return length;
-}
 
 // ---------------------------------------------------------------- the tree
 
@@ -138,7 +124,8 @@ static bool make_patch(const struct edit *e, const struct change *c, struct patc
         if (c->value.kind == CSG_BOOL)
             snprintf(out->text, sizeof out->text, "%s", c->value.boolean ? "true" : "false");
         else if (found)
-            change_number_text(out->text, out->span.negative ? -c->value.number : c->value.number);
+            number_shortest(out->text, out->span.negative ? -c->value.number : c->value.number, 6,
+                            17);
     }
     if (!found)
         error_at(err, (struct place){e->source->tree.file, n->line, n->column},

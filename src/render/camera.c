@@ -3,6 +3,7 @@
 
 #include "base/angle.h"
 #include "base/mem.h"
+#include "base/number.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -121,11 +122,8 @@ void camera_print(const struct camera *c, char text[CAMERA_TEXT])
                    c->rotation.y, c->rotation.z, c->distance};
     char *out = text;
     for (int i = 0; i < 7; i++) {
-        char one[32];
-        int digits = 6;
-        do
-            snprintf(one, sizeof one, "%.*g", digits, n[i] + 0.0);
-        while (strtod(one, NULL) != n[i] && digits++ < 17);
+        char one[NUMBER_TEXT];
+        number_shortest(one, n[i] + 0.0, 6, 17);
         out += snprintf(out, (size_t)(text + CAMERA_TEXT - out), "%s%s", i ? "," : "", one);
     }
 }
